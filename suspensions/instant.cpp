@@ -26,7 +26,10 @@ double power(const std::vector<Motion>& loads, const std::vector<Motion>& motion
 class Solver {
  public:
   Solver(const InstantProblem& problem, double tolerance)
-      : problem_(problem), tolerance_(tolerance), preconditioner_(problem.system->resistance()) {}
+      : problem_(problem),
+        tolerance_(tolerance),
+        preconditioner_(problem.system->resistance(), *problem.pool),
+        gradients_(*problem.pool) {}
 
   /// Solves for the forces `loads` and `rate` times the flow.
   std::vector<Motion> solve(const std::vector<Motion>& loads, double rate,
@@ -61,11 +64,11 @@ class Solver {
   bool converged = true;
 
  private:
-  /// Translates all spheres so that their drag balances the given forces, which pairs do not change.
-  /// With little drag the residual has too few digits for it.
+  /// Translates all spheres so that their drag balances the given forces, which pairs do not
+  /// change. With little drag the residual has too few digits for it.
   void balance(const std::vector<Motion>& loads, std::vector<Motion>& motions) const {
     const auto& resistance = problem_.system->resistance();
-    if (!resistance.drags.empty()) return;
+    if (!resistance.drags.empty() || resistance.held > 0) return;
     Lanes force{};
     double drag = 0;
     for (std::size_t k = 0; k < motions.size(); ++k) {

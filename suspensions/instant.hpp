@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/suspensions/conjugate_gradients.hpp"
-#include "viscontact/suspensions/pair_system.hpp"
-#include "viscontact/suspensions/stress.hpp"
+#include "viscontact/suspensions/linear/conjugate_gradients.hpp"
+#include "viscontact/suspensions/pairs/pair_system.hpp"
+#include "viscontact/suspensions/values/stress.hpp"
 
 namespace viscontact::suspensions {
 
@@ -21,6 +21,7 @@ struct InstantProblem {
   /// What the softest motion resists over what a sphere resists beside others that are at rest [1]:
   /// the factor by which residuals must be smaller than errors.
   double softest = 1;
+  ThreadPool* pool = nullptr;
 };
 
 struct InstantSolution {

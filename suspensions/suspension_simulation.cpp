@@ -5,16 +5,24 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/particles/domain/bounded_region.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
+#include "viscontact/suspensions/cell/pair_search.hpp"
+#include "viscontact/suspensions/cell/planes.hpp"
+#include "viscontact/suspensions/cell/sheared_cell.hpp"
+#include "viscontact/suspensions/cell/strained_lattice.hpp"
 #include "viscontact/suspensions/instant.hpp"
-#include "viscontact/suspensions/pair_search.hpp"
-#include "viscontact/suspensions/pair_system.hpp"
-#include "viscontact/suspensions/sheared_cell.hpp"
-#include "viscontact/suspensions/stress_sums.hpp"
-#include "viscontact/suspensions/suspension_step.hpp"
+#include "viscontact/suspensions/pairs/pair_sizes.hpp"
+#include "viscontact/suspensions/pairs/pair_system.hpp"
+#include "viscontact/suspensions/setting_checks.hpp"
+#include "viscontact/suspensions/step/sphere_order.hpp"
+#include "viscontact/suspensions/step/suspension_step.hpp"
+#include "viscontact/suspensions/values/stress_sums.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -30,49 +38,41 @@ struct SuspensionTuning {
   static constexpr double kLeastGap = 1e-12;
   // In mean radii: the least range of the search, because spheres move in a step.
   static constexpr double kLeastSearch = 0.2;
-  // Error of a given stress, relative, and solutions of a step for it.
-  static constexpr double kStressTolerance = 1e-8;
-  static constexpr int kMostRates = 12;
-  // Overlap at the start, in mean radii, that counts as rounding errors of a file.
-  static constexpr double kMostStartOverlap = 1e-6;
+  // If a flow changes at most by this factor, the motions of its last step times it begin a step.
+  static constexpr double kMostChange = 10;
   // Overlap that no step leaves, in mean radii: half of what is allowed.
   static constexpr double kMostOverlap = 5e-8;
   // A step that is not solved is taken in half of its length, and so on. If only the stress or
-  // Coulomb's law are not right, the last part is taken after fewer halvings.
-  static constexpr int kMostHalvings = 7, kMostForFriction = 3;
+  // Coulomb's law are not right, the last part is taken after fewer halvings. The spheres jam if
+  // there is no solution after the last halving, or none that obeys Coulomb's law in so many steps
+  // one after the other. At the edge of jamming up to 5 follow each other.
+  static constexpr int kMostHalvings = 7, kMostForFriction = 3, kMostUnsolved = 20;
+  // Near jamming a step with friction is at most so many times as long as the last one, because
+  // most longer ones have no solution.
+  static constexpr double kMostGrowth = 8;
+  // More spheres than this are sorted, because their numbers do not fit into the nearest cache.
+  static constexpr std::size_t kMostUnordered = 1024;
   // Largest range of the search without a box, in mean radii.
   static constexpr double kMostSearch = 100;
 };
 
-void check_cell(const Setting& setting, const Particles& particles) {
-  const auto& lubrication = *setting.lubrication;
-  const auto periods = periods_of(setting.domain);
-  const double distance = suspensions::largest_distance(
-      particles.radii, std::max(lubrication.range, SuspensionTuning::kLeastSearch));
-  for (const double period : periods)
-    if (period > 0 && period < 2 * distance)
-      throw Error(
-          ErrorKind::kBadInput,
-          "the period {} is too short for the range of lubrication: it must be at least {}, "
-          "twice the largest distance of a pair",
-          period, 2 * distance);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      if (periods[j] > 0 && lubrication.gradient[i][j] != 0 && !(i == 0 && j == 1))
-        throw Error(ErrorKind::kBadInput,
-                    "the flow changes along a periodic axis; only a velocity along x may change, "
-                    "along y");
-  if (periods[1] > 0 && !(periods[0] > 0) && lubrication.gradient[0][1] != 0)
-    throw Error(ErrorKind::kBadInput, "a shear flow with a period along y needs one along x");
+double largest_distance(const PairLubrication& lubrication, const Particles& particles) {
+  return suspensions::largest_distance(particles.radii,
+                                       std::max(lubrication.range, SuspensionTuning::kLeastSearch));
 }
 
-void check_spheres(const Setting& setting, const Particles& particles, double smallest_gap) {
-  if (!setting.given_motions.empty())
-    throw Error(ErrorKind::kBadInput,
-                "spheres with lubrication cannot have given motions; give them forces");
-  if (smallest_gap < -SuspensionTuning::kMostStartOverlap * mean_radius(particles))
-    throw Error(ErrorKind::kBadInput, "two spheres overlap by {} at the start; they must not",
-                -smallest_gap);
+/// Of lattices that do not last against the flow.
+constexpr std::string_view kLastsBothWays =
+    "a planar extension without rotation, in a box whose edges in its plane are equal, has no such "
+    "end";
+
+/// The factor by which the flow has changed, if motions times it are near those of the new flow;
+/// else 1.
+double change_of(double now_before, double before_before) {
+  const double change = before_before > 0 ? now_before / before_before : 1;
+  const double size = std::abs(change);
+  return size * SuspensionTuning::kMostChange >= 1 && size <= SuspensionTuning::kMostChange ? change
+                                                                                            : 1;
 }
 
 }  // namespace
@@ -80,10 +80,17 @@ void check_spheres(const Setting& setting, const Particles& particles, double sm
 struct SuspensionSimulation::Content {
   Setting setting;
   State state;
-  std::array<Vector, 3> gradient{};  // of the flow of rate 1
+  std::array<Vector, 3> gradient{};  // of the flow of rate 1, in the last step
   suspensions::SymmetricTensor strain{};
+  std::optional<double> stress;  // of the last step, if it is given
   double mean_radius = 1, volume = 0;
+  std::optional<suspensions::StrainedLattice> lasting;  // if the periods of the state are its
+  double sense = 1;  // of the net strain of the state, in the direction of `lasting`
+  std::vector<suspensions::PlaneBody> planes;
+  std::vector<double> radii;  // of all bodies, the planes after the spheres
   Rheology rheology;
+  std::unique_ptr<ThreadPool> pool;
+  int unsolved = 0;          // steps one after the other in which Coulomb's law is not right
   bool has_instant = false;  // whether `rheology` and the velocities are those of the present state
 
   const PairLubrication& lubrication() const { return *setting.lubrication; }
@@ -95,21 +102,27 @@ struct SuspensionSimulation::Content {
     if (const auto* box = std::get_if<BoxDomain>(&setting.domain)) cell.from = box->from;
     cell.lengths = periods_of(setting.domain);
     cell.offset = state.shear.offset;
+    if (state.shear.has_periods()) cell.lattice.emplace(state.shear.periods, middle_of_box());
     return cell;
   }
-  double box_volume() const {
-    const double measured = measure(setting.domain);
+  Vector middle_of_box() const {
+    const auto& box = std::get<BoxDomain>(setting.domain);
+    return 0.5 * (box.from + box.to);
+  }
+  double volume_of_region() const {
+    const double measured =
+        size_of_region(setting.domain, positions_of(setting.planes, state.time), 3);
     return measured > 0 ? measured : std::numeric_limits<double>::infinity();
   }
   /// The image displacements that tables of contacts need.
   void set_cell() {
     auto& shown = particles().cell;
     shown = cell_of(setting.domain);
-    const double slope = shown.lengths[1] > 0 ? state.shear.offset / shown.lengths[1] : 0;
-    // A displacement without a velocity is that of a gradient which acted for the time 1.
-    const double rate = state.shear.rate * gradient[0][1];
-    shown.gradient = {0, rate != 0 ? rate : slope, 0, 0};
-    shown.moved_for = rate != 0 ? slope / rate : 1;
+    if (state.shear.has_periods()) {
+      shown.vectors = state.shear.periods;
+      return;
+    }
+    if (shown.lengths[0] > 0 && shown.lengths[1] > 0) shown.offset = state.shear.offset;
   }
   void wrap() {
     const auto cell_now = cell();
@@ -125,8 +138,8 @@ struct SuspensionSimulation::Content {
   std::vector<Motion> relative_motions() const {
     const auto& p = state.particles;
     const Vector rotation = state.shear.rate * suspensions::rotation_of(gradient);
-    std::vector<Motion> motions(p.count());
-    for (std::size_t k = 0; k < motions.size(); ++k) {
+    std::vector<Motion> motions(radii.size());
+    for (std::size_t k = 0; k < p.count(); ++k) {
       motions[k].along = suspensions::lanes_of(p.velocity(k) - flow_at(p.position(k)));
       motions[k].turn =
           suspensions::lanes_of(point_of(p.angular_velocities.data(), k, 3) - rotation);
@@ -136,7 +149,7 @@ struct SuspensionSimulation::Content {
   void set_velocities(const std::vector<Motion>& motions) {
     auto& p = particles();
     const Vector rotation = state.shear.rate * suspensions::rotation_of(gradient);
-    for (std::size_t k = 0; k < motions.size(); ++k) {
+    for (std::size_t k = 0; k < p.count(); ++k) {
       std::ranges::copy(suspensions::vector_of(motions[k].along) + flow_at(p.position(k)),
                         &p.velocities[3 * k]);
       std::ranges::copy(suspensions::vector_of(motions[k].turn) + rotation,
@@ -144,11 +157,34 @@ struct SuspensionSimulation::Content {
     }
   }
 
-  /// The mean factor on the gradient of the setting; 1 with a given stress.
-  double given_rate(double from, double to) const {
-    const auto& factor = lubrication().rate_factor;
-    if (factor.pieces.empty() || lubrication().stress) return 1;
-    return to > from ? factor.mean(from, to)[0] : factor.value(from)[0];
+  /// Sets the flow, or the stress, between two times within one piece, or at a time.
+  void set_flow(double from, double to) {
+    const double middle =
+        to > from ? from + (to - from) / 2 : from + StepGrid::tiny(setting.time_step);
+    const auto flow = lubrication().flow_at(middle);
+    gradient = flow.gradient;
+    strain = suspensions::strain_rate_of(gradient);
+    stress = flow.stress;
+    const double factor = lubrication().factor(from, to);
+    if (stress)
+      *stress *= factor;
+    else
+      state.shear.rate = factor;
+  }
+  /// Sets them as they were in the last step, by the state alone.
+  void restore_flow() {
+    const double rate = state.shear.rate;
+    set_flow(state.time - state.earlier_step, state.time);
+    state.shear.rate = rate;
+  }
+  suspensions::SymmetricTensor strain_now() const {
+    suspensions::SymmetricTensor now;
+    now.add(state.shear.rate, strain);
+    return now;
+  }
+  /// Gives the shear rate, which is a magnitude, the sign of the flow.
+  void set_sign(Rheology& of) const {
+    if (signed_rate_of_strain(gradient_now()) < 0 && of.shear_rate > 0) of.shear_rate *= -1;
   }
   std::array<Vector, 3> gradient_now() const {
     auto now = gradient;
@@ -156,15 +192,16 @@ struct SuspensionSimulation::Content {
     return now;
   }
 
-  /// Forces and torques that do not depend on the motion.
-  std::vector<Motion> given_loads(double time) const {
+  /// Forces and torques that do not depend on the motion, means between two times.
+  std::vector<Motion> given_loads(double from, double to) const {
     const auto& p = state.particles;
-    std::vector<Motion> loads(p.count());
+    std::vector<Motion> loads(radii.size());
     const auto at = [&](const auto& map, std::size_t k) {
       const auto found = map.find(static_cast<std::int32_t>(k));
-      return found == map.end() ? Vector{} : found->second.value(time);
+      if (found == map.end()) return Vector{};
+      return to > from ? found->second.mean(from, to) : found->second.value(from);
     };
-    for (std::size_t k = 0; k < loads.size(); ++k) {
+    for (std::size_t k = 0; k < p.count(); ++k) {
       const double mass = p.masses.empty() ? 0 : p.masses[k];
       loads[k].along = suspensions::lanes_of(mass * setting.gravity + at(setting.forces, k) +
                                              added_force(setting, k, 3));
@@ -175,11 +212,13 @@ struct SuspensionSimulation::Content {
   /// Whether the gap of a pair is below the range, beyond which pairs have neither films nor
   /// repulsion and are listed only because they may come near in a step.
   bool is_in_range(const NearPair& pair) const {
-    const auto& radii = state.particles.radii;
-    const double sum = radii[index_of(pair.first)] + radii[index_of(pair.second)];
-    return norm(pair.apart) < (1 + lubrication().range / 2) * sum;
+    const auto sizes = sizes_of(pair);
+    return norm(pair.apart) < sizes.touching + lubrication().range * sizes.mean;
   }
-  /// Adds the repulsion of the pairs to `loads`. Returns its part of the stress sums.
+  suspensions::PairSizes sizes_of(const NearPair& pair) const {
+    return suspensions::sizes_of(radii[index_of(pair.first)], radii[index_of(pair.second)]);
+  }
+  /// Adds the repulsion of the pairs to `loads`. Returns its part of the stress sums at the rate 1.
   suspensions::StressPart add_repulsion(const std::vector<NearPair>& pairs,
                                         std::vector<Motion>& loads) const {
     suspensions::StressPart sum;
@@ -187,19 +226,23 @@ struct SuspensionSimulation::Content {
     const auto [amplitude, length] = *lubrication().repulsion;
     for (const auto& pair : pairs) {
       const auto i = index_of(pair.first), j = index_of(pair.second);
-      const double a = state.particles.radii[i], b = state.particles.radii[j];
+      const auto sizes = sizes_of(pair);
       const double distance = norm(pair.apart);
       if (!is_in_range(pair)) continue;
-      const double force = amplitude * a * b / (a + b) * std::exp(-(distance - a - b) / length);
+      const double force =
+          amplitude * sizes.reduced * std::exp(-(distance - sizes.touching) / length);
       const auto push = suspensions::lanes_of((force / distance) * pair.apart);
       loads[i].along -= push;
       loads[j].along += push;
-      sum.add_pair_force(suspensions::vector_of(push), pair.apart, gradient_now());
+      sum.add_pair_force(suspensions::vector_of(push), pair.apart, gradient);
     }
     return sum;
   }
   std::vector<NearPair> find_pairs(double range) const {
-    return suspensions::near_pairs(cell(), state.particles.positions, state.particles.radii, range);
+    const auto& p = state.particles;
+    auto pairs = suspensions::near_pairs(cell(), p.positions, p.radii, range, pool.get());
+    suspensions::add_plane_pairs(planes, p.positions, p.radii, range, pairs);
+    return pairs;
   }
   /// Range [in mean radii] of pairs that may come near in a step of length h: twice what the flow
   /// closes of it, and what the last motions, relative to the flow, close.
@@ -211,8 +254,7 @@ struct SuspensionSimulation::Content {
       fastest = std::max(fastest, norm(suspensions::vector_of(motion.along)));
     double most = SuspensionTuning::kMostSearch;
     const double diameter = suspensions::largest_distance(state.particles.radii, 0);
-    for (const double period : periods_of(setting.domain))
-      if (period > 0) most = std::min(most, period / diameter - 2);
+    most = std::min(most, cell().least_height() / diameter - 2);
     const double by_flow = sheared < 2 ? 2 * sheared / (1 - sheared / 2) : most;
     const double least = std::max(lubrication().range, SuspensionTuning::kLeastSearch);
     return std::max(std::min(by_flow + 2 * h * fastest / mean_radius, most), least);
@@ -220,44 +262,63 @@ struct SuspensionSimulation::Content {
   double smallest_gap(const std::vector<NearPair>& pairs) const {
     double smallest = std::numeric_limits<double>::infinity();
     for (const auto& pair : pairs)
-      smallest = std::min(smallest, norm(pair.apart) - state.particles.radii[index_of(pair.first)] -
-                                        state.particles.radii[index_of(pair.second)]);
+      smallest = std::min(smallest, norm(pair.apart) - sizes_of(pair).touching);
     return smallest;
   }
 
+  /// Steps end where the flow changes.
+  StepGrid grid() const { return StepGrid(setting.time_step, false, jump_times(setting)); }
   suspensions::InstantSolution solve_instant();
   std::vector<suspensions::ContactMemory> memories(double h) const;
-  /// `before` are the motions of the last step. Sets the rate if the stress is given, and then looks
-  /// for no other rate if it `gives_up` a step whose friction is not right.
-  suspensions::StepSolution solve_step(double h, const std::vector<NearPair>& pairs,
-                                       const std::vector<Motion>& before, bool gives_up);
+  /// `start` are motions near the solution. Sets the rate if the stress is given.
+  suspensions::StepSolution solve_step(double h, std::vector<NearPair> pairs,
+                                       std::vector<Motion> start, bool takes_given_bounds);
   /// The largest overlap of two spheres where they are [L], 0 if there is none.
-  double largest_overlap() const {
-    return std::max(-smallest_gap(suspensions::near_pairs(cell(), state.particles.positions,
-                                                          state.particles.radii, 0)),
-                    0.0);
-  }
-  void move(const std::vector<Motion>& motions, double h);
+  double largest_overlap() const { return std::max(-smallest_gap(find_pairs(0)), 0.0); }
+  void add_inertia(suspensions::StepProblem& problem) const;
+  // Sets the period vectors, if the cell needs them, and turns the box and its spheres.
+  void start_periods();
+  // Sets `lasting` if it has the periods of the state.
+  void find_lasting(const FlowPath& path);
+  // `back` is the net strain at all times from now on, at least, <= 0.
+  void check_lasting(double back) const;
+  void turn_box(const suspensions::Matrix& turn);
+  // Adds the strains of a step.
+  void strain_by(double h);
+  void move_periods(double h);
+  // Throws Error(kNotConverged) if images are too near for the search of pairs.
+  void check_images() const;
+  void move(const suspensions::StepSolution& solution, double h);
   void remember(const std::vector<suspensions::ContactMemory>& contacts, double h);
 };
 
 suspensions::InstantSolution SuspensionSimulation::Content::solve_instant() {
-  const double given = given_rate(state.time, state.time);
+  set_flow(state.time, state.time);
+  const double given = stress ? 1 : state.shear.rate;
   suspensions::SymmetricTensor given_strain;
   given_strain.add(given, strain);
   const auto pairs = find_pairs(lubrication().range);
   const suspensions::PairSystem system(
-      lubrication(), state.particles.radii,
-      suspensions::placed(pairs, state.particles.radii, SuspensionTuning::kLeastGap * mean_radius));
+      lubrication(), radii,
+      suspensions::placed(pairs, radii, SuspensionTuning::kLeastGap * mean_radius), *pool);
   suspensions::InstantProblem problem{
-      &system, given_strain,        lubrication().viscosity, volume, given_loads(state.time),
-      {},      lubrication().stress};
+      &system, given_strain, lubrication().viscosity, volume, given_loads(state.time, state.time),
+      {},      stress};
+  problem.pool = pool.get();
   problem.softest = std::min(lubrication().drag, 1.0);
   problem.load_stress = add_repulsion(pairs, problem.loads).stress;
-  auto solution = suspensions::solve_instant(problem, std::vector<Motion>(state.particles.count()),
-                                             SuspensionTuning::kInstantTolerance);
-  state.shear.rate = given * solution.rate;
-  set_velocities(solution.motions);
+  suspensions::InstantSolution solution;
+  if (lubrication().inertia) {
+    // The velocities are given.
+    state.shear.rate = given;
+    solution.motions = relative_motions();
+  } else {
+    solution = suspensions::solve_instant(problem, std::vector<Motion>(radii.size()),
+                                          SuspensionTuning::kInstantTolerance);
+    state.shear.rate = given * solution.rate;
+    set_velocities(solution.motions);
+  }
+  suspensions::check_plane_motions(setting, gradient_now(), state.time, state.time);
   set_cell();
 
   suspensions::SymmetricTensor rate;
@@ -268,28 +329,35 @@ suspensions::InstantSolution SuspensionSimulation::Content::solve_instant() {
   sums.repulsion.stress = problem.load_stress;
   sums.repulsion.power = problem.load_stress.contracted(rate);
   rheology = {.time = state.time, .strain = state.shear.strain};
+  rheology.net_strain = state.shear.net_strain;
   rheology.pairs = pairs.size();
   rheology.smallest_gap = smallest_gap(pairs);
-  suspensions::set_stresses(sums, rate, lubrication().viscosity, volume, rheology);
+  suspensions::set_stresses(sums, rate, 0, lubrication().viscosity, volume, rheology);
+  set_sign(rheology);
   return solution;
 }
 
-SuspensionSimulation::SuspensionSimulation(Setting setting, State state, int /*threads*/)
+SuspensionSimulation::SuspensionSimulation(Setting setting, State state, int threads)
     : content_(std::make_unique<Content>()) {
   auto& content = *content_;
   content.setting = std::move(setting);
   content.state = std::move(state);
+  content.pool = std::make_unique<ThreadPool>(threads);
   assert(content.setting.lubrication && !content.setting.fluid);
   assert(content.particles().dimension == 3 && content.particles().turn());
-  check_cell(content.setting, content.particles());
-  content.gradient = content.lubrication().gradient;
-  content.strain = suspensions::strain_rate_of(content.gradient);
+  check_setting(content.setting, largest_distance(content.lubrication(), content.particles()));
+  content.restore_flow();
   content.mean_radius = mean_radius(content.particles());
-  content.volume = content.box_volume();
-  if (content.state.steps == 0 && content.state.time == 0) {
+  content.volume = content.volume_of_region();
+  content.planes = suspensions::planes_beside(content.setting);
+  content.radii = content.particles().radii;
+  content.radii.resize(content.radii.size() + content.planes.size(),
+                       std::numeric_limits<double>::infinity());
+  if (content.state.steps == 0 && content.state.time == 0 && !content.state.shear.has_periods()) {
     content.state.shear = {};
     content.state.shear.offset = content.cell().moved_offset(content.lubrication().offset);
   }
+  content.start_periods();
   content.wrap();
   content.set_cell();
   check_spheres(content.setting, content.particles(),
@@ -320,29 +388,37 @@ const Rheology& SuspensionSimulation::solve_instant() {
 
 std::vector<suspensions::ContactMemory> SuspensionSimulation::Content::memories(double h) const {
   std::vector<suspensions::ContactMemory> result;
-  for (const auto& pair : state.pairs) {
-    suspensions::ContactMemory memory{pair.first, pair.second};
-    const double before = state.earlier_step > 0 ? 1 / state.earlier_step : 0;
+  const double before = state.earlier_step > 0 ? 1 / state.earlier_step : 0;
+  const auto add = [&](const Pair& pair, std::int32_t first, std::int32_t second, double sign) {
+    suspensions::ContactMemory memory{first, second};
     memory.load = before * pair.impulse;
-    memory.friction = before * state.memories.of(pair.memory).friction();
+    memory.friction = sign * before * state.memories.of(pair.memory).friction();
     if (contacts_have_films()) memory.least_load = pair.gamma / h;
     result.push_back(memory);
-  }
+  };
+  for (const auto& pair : state.pairs) add(pair, pair.first, pair.second, 1);
+  const auto spheres = static_cast<std::int32_t>(state.particles.count());
+  for (const auto& pair : state.walls) add(pair, pair.second, spheres - 1 - pair.first, -1);
+  std::ranges::sort(result, {}, [](const suspensions::ContactMemory& memory) {
+    return std::pair(memory.first, memory.second);
+  });
   return result;
 }
 
-void SuspensionSimulation::Content::move(const std::vector<Motion>& motions, double h) {
+void SuspensionSimulation::Content::move(const suspensions::StepSolution& solution, double h) {
+  const auto& motions = solution.motions;
   auto& p = particles();
   const auto now = gradient_now();
+  const auto velocities = p.velocities, angular_velocities = p.angular_velocities;
   for (std::size_t k = 0; k < p.count(); ++k) {
     const Vector v = suspensions::vector_of(motions[k].along);
     const Vector x =
         suspensions::carried(now, h, p.position(k)) + h * suspensions::mean_carried(now, h, v);
     std::ranges::copy(x, &p.positions[3 * k]);
   }
-  const double displacement = h * now[0][1] * periods_of(setting.domain)[1];
-  state.shear.offset = cell().moved_offset(displacement);
-  state.shear.strain += h * std::sqrt(2 * strain.contracted(strain)) * std::abs(state.shear.rate);
+  strain_by(h);
+  move_periods(h);
+  const auto unwrapped = p.positions;
   wrap();
   set_velocities(motions);
   turn_particles(
@@ -353,105 +429,217 @@ void SuspensionSimulation::Content::move(const std::vector<Motion>& motions, dou
         return turns;
       }(),
       h);
+  for (std::size_t k = 0; k < solution.changes.size(); ++k) {
+    // A sphere that leaves the cell enters it with the velocity of its image.
+    const Vector shift = p.position(k) - point_of(unwrapped.data(), k, 3);
+    const Vector v = point_of(velocities.data(), k, 3) +
+                     suspensions::vector_of(solution.changes[k].along) + flow_at(shift);
+    const Vector w = point_of(angular_velocities.data(), k, 3) +
+                     suspensions::vector_of(solution.changes[k].turn);
+    std::ranges::copy(v, &p.velocities[3 * k]);
+    std::ranges::copy(w, &p.angular_velocities[3 * k]);
+  }
   set_cell();
+}
+
+void SuspensionSimulation::Content::start_periods() {
+  auto& shear = state.shear;
+  if (!strains_cell(lubrication(), setting.domain) && !shear.has_periods()) return;
+  const auto path = lubrication().stress ? FlowPath{} : path_of(lubrication());
+  const auto lengths = periods_of(setting.domain);
+  const bool is_new = !shear.has_periods() && state.steps == 0;
+  if (!shear.has_periods()) {
+    const suspensions::StrainedLattice lattice(lengths, path.direction, lubrication().turns_box);
+    auto start = lattice.start();
+    if (!is_new) {
+      // A run that continues a shear: the box is where the shear left it.
+      start = {};
+      for (std::size_t d = 0; d < 3; ++d) start[d][d] = lengths[d];
+      start[1][0] = shear.offset;
+    }
+    shear.offset = 0;
+    shear.periods = suspensions::reduced(start);
+    if (is_new) turn_box(lattice.turn());
+  }
+  find_lasting(path);
+  check_lasting(is_new ? path.lowest : 0);
+  check_images();
+}
+
+void SuspensionSimulation::Content::find_lasting(const FlowPath& path) {
+  // The run that turned the box may have had the opposite direction.
+  for (const double sign : {1.0, -1.0}) {
+    auto direction = path.direction;
+    for (auto& row : direction) row = sign * row;
+    const suspensions::StrainedLattice lattice(periods_of(setting.domain), direction, true);
+    sense = sign * path.sense;
+    const double t = sense * state.shear.net_strain;
+    if (lattice.kind() == suspensions::StrainedLattice::Kind::kAsTheBox || t < lattice.earliest() ||
+        !suspensions::are_same(lattice.at(t), state.shear.periods))
+      continue;
+    lasting = lattice;
+    return;
+  }
+}
+
+void SuspensionSimulation::Content::check_lasting(double back) const {
+  if (!lasting) return;
+  const double needed = 2 * largest_distance(lubrication(), state.particles);
+  const double least = lasting->least_height();
+  if (least < needed)
+    throw Error(ErrorKind::kBadInput,
+                "the box is too small for this extension: opposite faces of its strained cell "
+                "come as near as {:.6g}, and must stay {:.6g} apart, twice the largest distance "
+                "of a pair; the edges must be at least {:.3g} times as long",
+                least, needed, needed / least);
+  if (lasting->least_height(back) < needed)
+    throw Error(ErrorKind::kBadInput,
+                "the flow goes back by the strain {:.6g} beyond its start, where opposite faces of "
+                "the strained cell come nearer than {:.6g}, twice the largest distance of a pair",
+                -back, needed);
+}
+
+void SuspensionSimulation::Content::turn_box(const suspensions::Matrix& turn) {
+  auto& p = particles();
+  const auto cell_now = cell();
+  const Vector middle = middle_of_box();
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const Vector x = cell_now.wrapped(middle + suspensions::times(turn, p.position(k) - middle));
+    std::ranges::copy(x, &p.positions[3 * k]);
+  }
+}
+
+void SuspensionSimulation::Content::check_images() const {
+  if (!state.shear.has_periods()) return;
+  const double least = cell().least_height();
+  const double needed = 2 * largest_distance(lubrication(), state.particles);
+  if (lasting && sense * state.shear.net_strain < lasting->earliest())
+    throw Error(ErrorKind::kNotConverged,
+                "the flow has reversed too far beyond its start at t = {:.6g}, the net strain "
+                "{:.6g}; {}",
+                state.time, state.shear.net_strain, kLastsBothWays);
+  if (least < needed)
+    throw Error(ErrorKind::kNotConverged,
+                "the flow has brought images of the spheres too near at t = {:.6g}, the strain "
+                "{:.6g}: opposite faces of the cell are {:.6g} apart, and must be {:.6g} apart, "
+                "twice the largest distance of a pair; {}",
+                state.time, state.shear.strain, least, needed,
+                lasting ? kLastsBothWays
+                        : "a larger box gets further, and a box that is turned at the start for a "
+                          "planar extension, or a cube for one along three axes, has no such end");
+}
+
+void SuspensionSimulation::Content::strain_by(double h) {
+  const double rate = std::sqrt(2 * strain.contracted(strain));
+  const double net = h * rate * std::abs(state.shear.rate);
+  const auto& wave = lubrication().wave;
+  state.shear.strain +=
+      wave && !stress ? h * rate * wave->mean_magnitude_over(state.time, state.time + h) : net;
+  state.shear.net_strain += signed_rate_of_strain(gradient_now()) < 0 ? -net : net;
+}
+
+void SuspensionSimulation::Content::move_periods(double h) {
+  auto& shear = state.shear;
+  if (!shear.has_periods()) {
+    shear.offset = cell().moved_offset(h * gradient_now()[0][1] * periods_of(setting.domain)[1]);
+    return;
+  }
+  shear.periods = lasting ? lasting->at(sense * shear.net_strain)
+                          : suspensions::carried_lattice(gradient_now(), h, shear.periods);
+}
+
+void SuspensionSimulation::Content::add_inertia(suspensions::StepProblem& problem) const {
+  const auto& p = state.particles;
+  const auto& gradient_of_step = problem.gradient;
+  const double h = problem.h;
+  const Vector rotation = suspensions::rotation_of(gradient_of_step);
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const Vector x = p.position(k), last = suspensions::vector_of(problem.motions[k].along);
+    const Vector flow = (1 / h) * (suspensions::carried(gradient_of_step, h, x) - x) +
+                        suspensions::mean_carried(gradient_of_step, h, last) - last;
+    suspensions::SphereInertia inertia{p.masses[k], p.inertias[k]};
+    inertia.start.along = suspensions::lanes_of(p.velocity(k) - flow);
+    inertia.start.turn =
+        suspensions::lanes_of(point_of(p.angular_velocities.data(), k, 3) - rotation);
+    problem.inertia.push_back(inertia);
+  }
 }
 
 void SuspensionSimulation::Content::remember(
     const std::vector<suspensions::ContactMemory>& contacts, double h) {
-  std::vector<Pair> pairs;
+  const auto cell_now = cell();
+  std::vector<Pair> pairs, walls;
   PairMemories memories_now;
+  const auto spheres = static_cast<std::int32_t>(state.particles.count());
   for (const auto& contact : contacts) {
+    const bool has_plane = contact.second >= spheres;
     Pair pair{contact.first, contact.second};
+    if (has_plane) pair = {spheres - 1 - contact.second, contact.first};
     pair.impulse = h * contact.load;
     double borne_by_film = 0;
     if (contacts_have_films()) {
-      const double lowest =
-          setting.laws.film.lowest_gamma(state.particles.radii[index_of(pair.first)],
-                                         state.particles.radii[index_of(pair.second)]);
+      const double lowest = setting.laws.film.lowest_gamma(radii[index_of(contact.first)],
+                                                           radii[index_of(contact.second)]);
       pair.gamma = h * contact.least_load;
       borne_by_film = pair.gamma - lowest;
       FilmLaw::absorb(pair, 0, lowest);
     }
-    const Vector apart = state.particles.position(index_of(pair.second)) -
-                         state.particles.position(index_of(pair.first));
-    // The image of the second sphere that is near has the opposite shift.
-    const auto periods = cell().periods_towards(apart);
-    pair.image = image_number(-static_cast<int>(periods[0]), -static_cast<int>(periods[1]),
-                              -static_cast<int>(periods[2]));
+    if (!has_plane) {
+      const Vector apart = state.particles.position(index_of(pair.second)) -
+                           state.particles.position(index_of(pair.first));
+      // The image of the second sphere that is near has the opposite shift.
+      const auto periods = cell_now.periods_towards(apart);
+      pair.image = image_number(-static_cast<int>(periods[0]), -static_cast<int>(periods[1]),
+                                -static_cast<int>(periods[2]));
+    }
     PairMemory memory;
-    memory.set_friction(h * contact.friction);
+    // Files have the friction on the sphere beside a plane.
+    memory.set_friction((has_plane ? -h : h) * contact.friction);
     memory[Remembered::kSolidLoad] = std::max(pair.impulse - borne_by_film, 0.0);
     memories_now.set(pair.memory, memory);
-    if (pair.impulse != 0 || pair.gamma != 0) pairs.push_back(pair);
+    if (pair.impulse != 0 || pair.gamma != 0) (has_plane ? walls : pairs).push_back(pair);
   }
-  memories_now.keep_only(pairs);
+  memories_now.keep_only(pairs, walls);
   state.pairs = std::move(pairs);
+  state.walls = std::move(walls);
   state.memories = std::move(memories_now);
 }
 
-suspensions::StepSolution SuspensionSimulation::Content::solve_step(
-    double h, const std::vector<NearPair>& pairs, const std::vector<Motion>& before,
-    bool gives_up) {
+suspensions::StepSolution SuspensionSimulation::Content::solve_step(double h,
+                                                                    std::vector<NearPair> pairs,
+                                                                    std::vector<Motion> start,
+                                                                    bool takes_given_bounds) {
   suspensions::StepProblem problem;
+  problem.takes_given_bounds = takes_given_bounds;
   problem.lubrication = lubrication();
   if (setting.laws.friction) problem.friction = setting.laws.friction->coefficient;
   if (contacts_have_films()) problem.contact_film = &setting.laws.film;
-  problem.radii = state.particles.radii;
+  problem.radii = radii;
   problem.mean_radius = mean_radius;
-  problem.pairs = pairs;
   problem.memories = memories(h);
-  problem.motions = before;
-  const double first_rate = state.shear.rate;
-  const auto solve_at = [&](double rate) {
-    state.shear.rate = rate;
-    auto now = problem;
-    // Motions of a suspension at another rate are nearly proportional to it.
-    for (auto& motion : now.motions) {
-      if (first_rate == 0) break;
-      motion.along *= rate / first_rate;
-      motion.turn *= rate / first_rate;
-    }
-    now.loads = given_loads(state.time);
-    now.gradient = gradient_now();
-    now.h = h;
-    const auto repulsion = add_repulsion(pairs, now.loads);
-    auto solution = suspensions::SuspensionStep(std::move(now)).solve();
-    solution.stresses.repulsion = repulsion;
-    return solution;
-  };
-  if (!lubrication().stress) return solve_at(given_rate(state.time, state.time + h));
-
-  // The rate by the secant method, because the stress is nearly proportional to it.
-  const double target = *lubrication().stress;
-  const auto stress_of = [&](const suspensions::StepSolution& solution) {
-    Rheology found;
-    suspensions::SymmetricTensor now;
-    now.add(state.shear.rate, strain);
-    suspensions::set_stresses(solution.stresses, now, lubrication().viscosity, volume, found);
-    return found.viscosity * lubrication().viscosity * state.shear.rate * gradient[0][1];
-  };
-  double rate = first_rate;
-  auto solution = solve_at(rate);
-  double error = stress_of(solution) - target, slope = (error + target) / rate;
-  int iterations = solution.iterations, solutions = solution.solutions;
-  bool converged = false;
-  for (int k = 0; k < SuspensionTuning::kMostRates; ++k) {
-    converged = std::abs(error) <= SuspensionTuning::kStressTolerance * std::abs(target);
-    // Half of the step is solved instead.
-    if (converged || !solution.is_solved || (gives_up && !solution.converged)) break;
-    const double next = rate - error / slope;
-    if (!(next * rate > 0)) break;
-    solution = solve_at(next);
-    const double found = stress_of(solution) - target;
-    if (found != error && next != rate) slope = (found - error) / (next - rate);
-    rate = next;
-    error = found;
-    iterations += solution.iterations;
-    solutions += solution.solutions;
+  problem.pool = pool.get();
+  problem.motions = std::move(start);
+  problem.loads = given_loads(state.time, state.time + h);
+  problem.gradient = gradient_now();
+  problem.h = h;
+  if (lubrication().inertia) add_inertia(problem);
+  auto repulsion = add_repulsion(pairs, problem.loads);
+  problem.pairs = std::move(pairs);
+  if (stress) {
+    auto& given = problem.stress.emplace();
+    given.gradient = gradient;
+    given.rate = state.shear.rate;
+    given.of_fluid = 2 * lubrication().viscosity * volume * strain.contracted(strain);
+    given.of_stress = volume * *stress;
+    given.of_repulsion = repulsion.power;
   }
-  solution.converged = solution.converged && converged;
-  solution.iterations = iterations;
-  solution.solutions = solutions;
+  auto solution = particles().count() > SuspensionTuning::kMostUnordered
+                      ? suspensions::solve_in_order(
+                            std::move(problem), suspensions::spatial_order(particles().positions))
+                      : suspensions::SuspensionStep(std::move(problem)).solve();
+  if (stress) state.shear.rate = solution.rate;
+  repulsion.power *= state.shear.rate;
+  solution.stresses.repulsion = repulsion;
   return solution;
 }
 
@@ -460,35 +648,64 @@ StepReport SuspensionSimulation::step(double end) {
   auto& state = content.state;
   StepReport report;
   report.time = state.time;
-  const auto interval = StepGrid(content.setting.time_step).next(state, end);
+  const auto interval = content.grid().next(state, end);
   if (!interval) return report;
+  content.check_images();
   if (state.steps == 0 && !content.has_instant) content.solve_instant();
   content.has_instant = false;
+  content.restore_flow();
   const State start = state;
   const auto before = content.relative_motions();
+  const auto stress_before = content.stress;
+  const auto strain_before = content.strain_now();
   const double allowed =
       std::max(content.largest_overlap(), SuspensionTuning::kMostOverlap * content.mean_radius);
   double h = interval->h;
   suspensions::StepSolution solution;
   std::size_t pairs_in_range = 0;
   int solutions = 0, halvings = 0;
+  while (content.setting.laws.friction && state.earlier_step > 0 &&
+         h > SuspensionTuning::kMostGrowth * state.earlier_step &&
+         halvings < SuspensionTuning::kMostHalvings) {
+    h /= 2;
+    ++halvings;
+  }
   for (;; ++halvings, h /= 2) {
-    if (halvings > SuspensionTuning::kMostHalvings)
+    if (halvings > SuspensionTuning::kMostHalvings ||
+        content.unsolved >= SuspensionTuning::kMostUnsolved)
       throw Error(ErrorKind::kNotConverged,
                   "the spheres jam at t = {:.6g}, the strain {:.6g}: a step of {:.3g} has no "
-                  "solution without overlap; use a smaller volume fraction, less friction, or a "
-                  "shorter step",
+                  "solution; use a smaller volume fraction, less friction, or a shorter step",
                   start.time, start.shear.strain, 2 * h);
     state = start;
-    const auto pairs = content.find_pairs(content.search_range(h, before));
+    content.set_flow(state.time, state.time + h);
+    // With inertia the motions at the start are given, relative to the new flow.
+    const bool has_inertia = content.lubrication().inertia;
+    auto motions = has_inertia ? content.relative_motions() : before;
+    // Motions of a suspension at another rate are nearly proportional to it.
+    const double change =
+        content.stress && stress_before
+            ? change_of(*content.stress * *stress_before, *stress_before * *stress_before)
+            : change_of(content.strain_now().contracted(strain_before),
+                        strain_before.contracted(strain_before));
+    if (content.stress) state.shear.rate *= change;
+    if (change != 1 && !has_inertia)
+      for (auto& motion : motions) {
+        motion.along *= change;
+        motion.turn *= change;
+      }
+    auto pairs = content.find_pairs(content.search_range(h, motions));
     pairs_in_range = static_cast<std::size_t>(std::ranges::count_if(
         pairs, [&](const NearPair& pair) { return content.is_in_range(pair); }));
-    solution = content.solve_step(h, pairs, before, halvings < SuspensionTuning::kMostForFriction);
+    solution = content.solve_step(h, std::move(pairs), std::move(motions),
+                                  halvings >= SuspensionTuning::kMostForFriction);
     report.iterations += solution.iterations;
     solutions += solution.solutions;
     if (!solution.is_solved || !std::isfinite(solution.dissipation)) continue;
     if (!solution.converged && halvings < SuspensionTuning::kMostForFriction) continue;
-    content.move(solution.motions, h);
+    suspensions::check_plane_motions(content.setting, content.gradient_now(), start.time,
+                                     start.time + h);
+    content.move(solution, h);
     report.largest_overlap = content.largest_overlap();
     if (report.largest_overlap <= allowed) break;
   }
@@ -499,6 +716,7 @@ StepReport SuspensionSimulation::step(double end) {
   report.converged = solution.converged;
   if (!report.converged) report.excess = std::numeric_limits<double>::infinity();
   report.has_given_loads = solution.has_given_loads;
+  content.unsolved = solution.has_given_loads ? content.unsolved + 1 : 0;
   auto taken = *interval;
   if (halvings > 0) {
     // The next step goes on to the same point of the grid.
@@ -514,14 +732,14 @@ StepReport SuspensionSimulation::step(double end) {
 
   auto& rheology = content.rheology;
   rheology = {.time = state.time, .strain = state.shear.strain};
+  rheology.net_strain = state.shear.net_strain;
   rheology.pairs = pairs_in_range;
   rheology.contacts = solution.touching;
   rheology.smallest_gap = solution.smallest_gap;
   rheology.dissipation = solution.dissipation;
-  suspensions::SymmetricTensor rate;
-  rate.add(state.shear.rate, content.strain);
-  suspensions::set_stresses(solution.stresses, rate, content.lubrication().viscosity,
-                            content.volume, rheology);
+  suspensions::set_stresses(solution.stresses, content.strain_now(), solution.least_rate,
+                            content.lubrication().viscosity, content.volume, rheology);
+  content.set_sign(rheology);
   rheology.solutions = solutions;
   return report;
 }

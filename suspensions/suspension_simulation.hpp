@@ -1,4 +1,4 @@
-// Many spheres with lubrication between close pairs, docs/physics.md (9.1) to (9.17).
+// Many spheres with lubrication between close pairs, docs/physics.md (9.1) to (9.26).
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include "viscontact/particles/state/state.hpp"
 #include "viscontact/particles/steps/particle_simulation.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
-#include "viscontact/suspensions/rheology.hpp"
+#include "viscontact/suspensions/values/rheology.hpp"
 
 namespace viscontact::particles {
 
@@ -18,15 +18,17 @@ namespace viscontact::particles {
 class SuspensionSimulation : public ParticleSimulation {
  public:
   /// `setting` has PairLubrication and no fluid. `state` is that of a restart file, or a state of
-  /// which only the particles, which turn, are set. Throws Error(kBadInput) if a period is too short
-  /// for the range of a pair, if the flow does not carry the images of spheres, if motions are
-  /// given, or if spheres overlap. `threads` has no effect yet.
+  /// which only the particles, which turn, are set. Throws Error(kBadInput) if a period is too
+  /// short for the range of a pair, if the flow does not carry the images of spheres or does not
+  /// stick to a wall or plane, if motions are given, if spheres overlap, or if one has no mass with
+  /// inertia. The results have the same bits for any number of `threads`.
   SuspensionSimulation(Setting setting, State state, int threads);
   ~SuspensionSimulation() override;
   SuspensionSimulation(SuspensionSimulation&&) noexcept;
 
   /// A step that is not solved is taken in half of its length, and so on; its report and rheology()
-  /// are those of the part. Throws Error(kNotConverged) if the spheres jam.
+  /// are those of the part. Throws Error(kNotConverged) if the spheres jam, and Error(kBadInput) if
+  /// a plane does not move with the flow.
   StepReport step(double end) override;
   const State& state() const override;
   std::span<double> added_forces() override;
@@ -34,7 +36,8 @@ class SuspensionSimulation : public ParticleSimulation {
 
   /// Of the last step; before the first step that of the instant.
   const Rheology& rheology() const;
-  /// Computes velocities and stress at the present places, without moving anything.
+  /// Computes velocities, which with inertia are given, and stress at the present places, without
+  /// moving anything.
   const Rheology& solve_instant();
 
  private:

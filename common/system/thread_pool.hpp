@@ -32,28 +32,29 @@ class ThreadPool {
 
   /// Calls body(begin, end) for each block of [0, count), on all threads of the pool, in any order.
   /// If a call throws, the first exception is thrown again when all calls have ended; a pool of one
-  /// thread throws at once and leaves out the remaining blocks.
+  /// thread throws at once and leaves out the remaining blocks. A loop of more work for each index
+  /// may have smaller blocks of `size` indices.
   template <class Body>
-  void for_blocks(std::size_t count, const Body& body) {
-    const std::size_t blocks = (count + kBlock - 1) / kBlock;
+  void for_blocks(std::size_t count, const Body& body, std::size_t size = kBlock) {
+    const std::size_t blocks = (count + size - 1) / size;
     if (blocks <= 1) {
       if (count > 0) body(std::size_t{0}, count);
       return;
     }
-    run(blocks, [&body, count](std::size_t block) {
-      body(block * kBlock, std::min(block * kBlock + kBlock, count));
+    run(blocks, [&body, count, size](std::size_t block) {
+      body(block * size, std::min(block * size + size, count));
     });
   }
 
   /// Adds the values that body(begin, end) returns for each block with += in the order of the
   /// blocks. Returns Result{} if count is 0. Throws the errors of for_blocks().
   template <class Result, class Body>
-  Result sum_of_blocks(std::size_t count, const Body& body) {
-    if (count <= kBlock) return count > 0 ? body(std::size_t{0}, count) : Result{};
-    std::vector<Result> parts((count + kBlock - 1) / kBlock);
-    for_blocks(count, [&](std::size_t begin, std::size_t end) {
-      parts[begin / kBlock] = body(begin, end);
-    });
+  Result sum_of_blocks(std::size_t count, const Body& body, std::size_t size = kBlock) {
+    if (count <= size) return count > 0 ? body(std::size_t{0}, count) : Result{};
+    std::vector<Result> parts((count + size - 1) / size);
+    for_blocks(
+        count, [&](std::size_t begin, std::size_t end) { parts[begin / size] = body(begin, end); },
+        size);
     Result sum{};
     for (const auto& part : parts) sum += part;
     return sum;

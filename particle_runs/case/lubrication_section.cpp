@@ -4,7 +4,11 @@
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/motions/fitted_pairs.hpp"
 #include "viscontact/particle_runs/case/particles_sections.hpp"
+#include "viscontact/particles/setting/plane_beside_flow.hpp"
+#include "viscontact/particles/steps/step_times.hpp"
+#include "viscontact/suspensions/cell/strained_lattice.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -15,47 +19,101 @@ constexpr Allowed kRelativeLength = {[](double v) { return v == 0 || (v >= 1e-12
                                      "0, or from 1e-12 to 0.1"};
 constexpr Allowed kDrag = {[](double v) { return v >= 1e-12 && v <= 1e6; }, "from 1e-12 to 1e6"};
 
-/// The flow around the spheres, of which one number is given.
+/// A number or a gradient that may change in time: one piece if it is constant.
+template <class Value>
+struct InTime {
+  struct Piece {
+    double until = 0;  // [T]
+    Value value{};
+  };
+  std::vector<Piece> pieces;  // the last one holds for ever
+  std::optional<Wave> wave;   // in place of pieces
+
+  bool is_given() const { return wave || !pieces.empty(); }
+};
+
+/// The flow around the spheres, of which one is given.
 struct FlowKeys {
-  std::optional<double> shear_rate, strain_rate;  // [1/T]
-  std::optional<std::array<Vector, 3>> gradient;  // [1/T]
-  std::optional<double> stress;                   // [M/(L T^2)]
+  InTime<double> shear_rate, strain_rate;  // [1/T]
+  InTime<Gradient> gradient;               // [1/T]
+  InTime<double> stress;                   // [M/(L T^2)]
 };
 
 /// Throws Error(kBadInput) unless there are three rows, and if the trace is not 0.
 void read_gradient(const case_file::TomlSection& section, std::string_view key,
-                   std::optional<std::array<Vector, 3>>& gradient) {
+                   Gradient& gradient) {
   const auto rows = section.rows(key, 3, kModerate);
   section.require(rows.size() == 3, key, "has {} rows; it must have 3, of du/dx, dv/dx and dw/dx",
                   rows.size());
-  auto& entries = gradient.emplace();
   double trace = 0, largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    std::ranges::copy(rows[i], entries[i].begin());
-    trace += entries[i][i];
-    for (const double entry : entries[i]) largest = std::max(largest, std::abs(entry));
+    std::ranges::copy(rows[i], gradient[i].begin());
+    trace += gradient[i][i];
+    for (const double entry : gradient[i]) largest = std::max(largest, std::abs(entry));
   }
   constexpr double kRounding = 1e-12;  // of numbers that users round
   section.require(std::abs(trace) <= kRounding * largest, key,
                   "has the trace {:.6g}; it must be 0, because the fluid is incompressible", trace);
 }
 
+void read_value(const case_file::TomlSection& section, std::string_view key, double& value) {
+  value = section.number(key, kModerate);
+}
+void read_value(const case_file::TomlSection& section, std::string_view key, Gradient& value) {
+  read_gradient(section, key, value);
+}
+
+void wave_keys(case_file::Keys& keys, Wave& wave) {
+  keys.required("amplitude", case_file::number(wave.amplitude, kModerate),
+                {"the value is `mean` + `amplitude` sin(`angular_frequency` t + `phase`)"});
+  keys.required("angular_frequency", case_file::number(wave.angular_frequency, kModeratelyPositive),
+                {"2 pi over the period"});
+  keys.optional("mean", case_file::number(wave.mean, kModerate), {"the mean over a period"});
+  keys.optional("phase", case_file::number(wave.phase, kModerate), {"in radians"});
+}
+
+/// Reads a constant, a list of tables { until, value }, or a wave, which a gradient cannot be.
+template <class Value>
+void read_in_time(const case_file::TomlSection& section, std::string_view key,
+                  InTime<Value>& place) {
+  if constexpr (std::is_same_v<Value, double>)
+    if (section.is_table(key)) {
+      case_file::read_keys(section.section(key), wave_keys, place.wave.emplace());
+      return;
+    }
+  if (!section.is_array_of_tables(key)) {
+    read_value(section, key, place.pieces.emplace_back().value);
+    return;
+  }
+  double before = 0;
+  for (const auto& entry : section.sections(key)) {
+    auto& piece = place.pieces.emplace_back();
+    piece.until = entry.number("until", kPositive);
+    entry.require(piece.until > before, "until",
+                  "is {}; it must be greater than {}, where the piece before ends", piece.until,
+                  before);
+    read_value(entry, "value", piece.value);
+    entry.finish();
+    before = piece.until;
+  }
+}
+
 void flow_keys(case_file::Keys& keys, FlowKeys& flow) {
-  keys.optional("shear_rate", case_file::number(flow.shear_rate, kModerate),
+  constexpr std::string_view kNumber = "a number, pieces or a wave";
+  keys.optional("shear_rate", case_file::custom(kNumber, read_in_time<double>, flow.shear_rate),
                 {"s: the velocity of the fluid is (s y, 0, 0)", "one of these keys is required"});
-  keys.optional("strain_rate", case_file::number(flow.strain_rate, kModerate),
-                {"s: the velocity of the fluid is (s x, -s y, 0). Not in a periodic box, whose "
-                 "images it would carry away",
+  keys.optional("strain_rate", case_file::custom(kNumber, read_in_time<double>, flow.strain_rate),
+                {"s: the velocity of the fluid is (s x, -s y, 0)", "likewise"});
+  keys.optional("gradient",
+                case_file::custom("`[[..], [..], [..]]`, without a trace, or pieces",
+                                  read_in_time<Gradient>, flow.gradient),
+                {"row i has the derivatives of component i of the velocity along x, y and z. In a "
+                 "box with three periods see [strained cells](suspensions.md#strained-cells); "
+                 "beside walls and planes it must be a shear along them",
                  "likewise"});
-  keys.optional(
-      "gradient",
-      case_file::custom("`[[..], [..], [..]]`, without a trace", read_gradient, flow.gradient),
-      {"row i has the derivatives of component i of the velocity along x, y and z. In a periodic "
-       "box only that of the first along y may differ from 0",
-       "likewise"});
-  keys.optional("stress", case_file::number(flow.stress, kModerate),
+  keys.optional("stress", case_file::custom(kNumber, read_in_time<double>, flow.stress),
                 {"mean shear stress of the suspension in a box, component xy: the flow is that of "
-                 "`shear_rate`, and the rate a result. Only at the start, with `end_time = 0`",
+                 "`shear_rate`, and the rate a result of each step",
                  "likewise"});
   const char* given = nullptr;
   for (const auto* key : {"shear_rate", "strain_rate", "gradient", "stress"}) {
@@ -75,30 +133,77 @@ void check_flow(const case_file::TomlSection& section, const PairLubrication& pa
                 const Domain& domain) {
   const char* key = section.has("gradient") ? "gradient" : "strain_rate";
   const bool has_box = !std::holds_alternative<std::monostate>(domain);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      section.require(!has_box || (i == 0 && j == 1) || pairs.gradient[i][j] == 0, key,
-                      "makes the velocity along {} change along {}, which is not possible in a "
-                      "periodic box; there only that along x may change, along y (shear_rate), or "
-                      "the case must have no [domain]",
-                      kAxes[i], kAxes[j]);
+  const char* shear = section.has("gradient") ? "gradient" : "shear_rate";
+  const auto periods = periods_of(domain);
+  const auto check = [&](const Gradient& gradient) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        section.require(periods[j] == 0 || (i == 0 && j == 1) || gradient[i][j] == 0, key,
+                        "makes the velocity along {} change along {}, which is not possible with a "
+                        "period there and walls elsewhere; only that along x may change, along y "
+                        "(shear_rate), or domain.box.periodic must be true along all axes",
+                        kAxes[i], kAxes[j]);
+    section.require(periods[1] == 0 || periods[0] > 0 || gradient[0][1] == 0, shear,
+                    "moves the images across the period y along x, where the box has walls; "
+                    "domain.box.periodic must be true along x, too");
+  };
+  if (!strains_cell(pairs, domain)) {
+    check(pairs.gradient);
+    for (const auto& piece : pairs.pieces) check(piece.gradient);
+  }
+  const auto walls = obstacles_of(domain);
+  for (const auto& wall : walls)
+    if (const auto fault = fault_of_plane(wall, pairs, true))
+      section.fail(section.has("strain_rate") ? "strain_rate" : shear,
+                   "goes through a wall of the box or changes along it; it must be a shear along "
+                   "all walls, which move with it, or the fluid at rest");
+  section.require(walls.empty() || !pairs.stress, "stress",
+                  "needs a box without walls, because walls would move at a rate that is a result; "
+                  "domain.box.periodic must be true along all axes");
   section.require(has_box || !pairs.stress, "stress",
                   "is that of a suspension in a volume; the case must have a [domain] with a box");
 }
 
+/// Sets the flow of the pieces or of the wave of `given`. `set` sets that of a value; of the value
+/// 1 it is that of a wave.
+template <class Value, class Set>
+void set_flow(const InTime<Value>& given, PairLubrication& pairs, const Set& set) {
+  if (!given.is_given()) return;
+  if constexpr (std::is_same_v<Value, double>)
+    if (given.wave) {
+      FlowPiece flow;
+      set(flow, 1.0);
+      pairs.gradient = flow.gradient;
+      pairs.stress = flow.stress;
+      pairs.wave = given.wave;
+      return;
+    }
+  for (const auto& piece : given.pieces) {
+    auto& flow = pairs.pieces.emplace_back();
+    flow.until = piece.until;
+    set(flow, piece.value);
+  }
+  pairs.gradient = pairs.pieces.front().gradient;
+  pairs.stress = pairs.pieces.front().stress;
+  if (pairs.pieces.size() == 1) pairs.pieces.clear();
+}
+
 void read_flow(const case_file::TomlSection& section, std::string_view key, PairLubrication& pairs,
                const Domain& domain) {
-  FlowKeys flow;
+  FlowKeys keys;
   const auto table = section.section(key);
-  case_file::read_keys(table, flow_keys, flow);
-  if (flow.shear_rate) pairs.gradient[0][1] = *flow.shear_rate;
-  if (flow.strain_rate) {
-    pairs.gradient[0][0] = *flow.strain_rate;
-    pairs.gradient[1][1] = -*flow.strain_rate;
-  }
-  if (flow.gradient) pairs.gradient = *flow.gradient;
-  if (flow.stress) pairs.gradient[0][1] = 1;
-  pairs.stress = flow.stress;
+  case_file::read_keys(table, flow_keys, keys);
+  set_flow(keys.shear_rate, pairs, [](FlowPiece& flow, double s) { flow.gradient[0][1] = s; });
+  set_flow(keys.strain_rate, pairs, [](FlowPiece& flow, double s) {
+    flow.gradient[0][0] = s;
+    flow.gradient[1][1] = -s;
+  });
+  set_flow(keys.gradient, pairs,
+           [](FlowPiece& flow, const Gradient& gradient) { flow.gradient = gradient; });
+  set_flow(keys.stress, pairs, [](FlowPiece& flow, double stress) {
+    flow.gradient[0][1] = 1;
+    flow.stress = stress;
+  });
   check_flow(table, pairs, domain);
 }
 
@@ -106,8 +211,22 @@ void read_truth(const case_file::TomlSection& section, std::string_view key, boo
   place = section.truth(key);
 }
 
+/// True if the images of the particles across the period y may be displaced along x.
+bool has_images_across(const Domain& domain) {
+  const auto periods = periods_of(domain);
+  return periods[0] > 0 && periods[1] > 0;
+}
+
+/// Whether some box with three periods is turned for its flow.
+bool has_turn(const PairLubrication& pairs, const Domain& domain) {
+  using suspensions::StrainedLattice;
+  return strains_cell(pairs, domain) &&
+         StrainedLattice::kind_of(path_of(pairs).direction) != StrainedLattice::Kind::kAsTheBox;
+}
+
 struct LubricationKeys {
   PairLubrication pairs;
+  std::string fits;  // a folder
   bool compares = false;
 };
 
@@ -138,16 +257,42 @@ void lubrication_keys(case_file::Keys& keys, LubricationKeys& read, const Domain
                 {"the linear flow around the spheres", "at rest"});
   keys.optional("offset", case_file::number(pairs.offset, kModerate),
                 {"displacement along x, at the start, of the periodic image across y"});
-  keys.require(!keys.has("offset") || !std::holds_alternative<std::monostate>(domain), "offset",
-               "has no effect without periods; it must be left out, or the case must have a "
-               "[domain] with a box");
-  keys.require(!keys.has("inertia"), "inertia",
-               "is not computed for spheres with lubrication; the key must be left out");
+  keys.require(!keys.has("offset") || has_images_across(domain), "offset",
+               "has no effect without periods along x and y; it must be left out, or the case must "
+               "have a [domain] with such a box");
+  keys.require(!keys.has("offset") || !strains_cell(pairs, domain), "offset",
+               "belongs to a shear along x that changes along y; it must be left out");
+  keys.optional("turned", case_file::custom("`true` or `false`", read_truth, pairs.turns_box),
+                {"whether a periodic box, with its spheres, is turned at the start so that an "
+                 "extension can go on for ever ([suspensions.md](suspensions.md#strained-cells))",
+                 "`true`"});
+  keys.require(!keys.has("turned") || has_turn(pairs, domain), "turned",
+               "has no effect, because no turn of a box with three periods keeps images apart in "
+               "this flow, or none is needed; it must be left out");
+  keys.optional("inertia", case_file::custom("`true` or `false`", read_truth, pairs.inertia),
+                {"whether the spheres have inertia, and not the fluid: they then need masses, and "
+                 "may have velocities at the start",
+                 "`false`"});
+  keys.require(!pairs.inertia || !pairs.stress, "inertia",
+               "is true, and velocity has a stress; with inertia the rate must be given");
+  keys.require(!pairs.inertia || accelerates_images_alike(pairs, domain), "inertia",
+               "is true in a flow that accelerates the fluid otherwise at a sphere than at its "
+               "images; along the periods of the box the flow must be at rest or a shear of "
+               "constant rate, or the case must have no such periods");
   keys.optional(
       "compare", case_file::custom("`true` or `false`", read_truth, read.compares),
       {"whether the case is run a second time with `pairs = \"none\"`, and the page shows "
        "both ([suspensions.md](suspensions.md#comparison))",
        "`false`"});
+  keys.optional(
+      "fits", case_file::file_name(read.fits),
+      {"with `pairs = \"tables\"`: an own [fit](suspensions.md#own-fits), or a folder with such "
+       "files "
+       "`*.json`, which take the place of the shipped tables at the ratios of radii and the "
+       "gaps that they have",
+       "the shipped tables"});
+  keys.require(pairs.pairs == PairTerms::kTables || !keys.has("fits"), "fits",
+               "belongs to pairs = \"tables\"; it must be left out");
   for (const auto* key : {"range", "regularisation", "compare"})
     keys.require(pairs.pairs != PairTerms::kNone || !keys.has(key), key,
                  "has no effect with pairs = \"none\"; it must be left out");
@@ -167,20 +312,7 @@ constexpr auto kRefusals = std::to_array<Refusal>({
     {"hinge", "joins particles"},
     {"spring", "joins particles"},
     {"arm", "joins particles"},
-    {"plane", "bounds the particles by a plane"},
 });
-
-/// The root of 2 E:E, with the symmetric part E of the gradient [1/T]; 0 if it is a result.
-double rate_of(const PairLubrication& pairs) {
-  double sum = 0;
-  if (pairs.stress) return 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double strain = (pairs.gradient[i][j] + pairs.gradient[j][i]) / 2;
-      sum += 2 * strain * strain;
-    }
-  return std::sqrt(sum);
-}
 
 void repulsion_keys(case_file::Keys& keys, Repulsion& repulsion) {
   keys.required("amplitude", case_file::number(repulsion.amplitude, kModeratelyPositive),
@@ -192,17 +324,6 @@ void repulsion_keys(case_file::Keys& keys, Repulsion& repulsion) {
 void read_repulsion(const case_file::TomlSection& section, std::string_view key,
                     std::optional<Repulsion>& repulsion) {
   case_file::read_keys(section.section(key), repulsion_keys, repulsion.emplace());
-}
-
-void check_domain(const case_file::TomlSection& root, const Domain& domain) {
-  if (std::holds_alternative<std::monostate>(domain)) return;
-  const auto* box = std::get_if<BoxDomain>(&domain);
-  const auto section = root.section("domain").section("box");
-  for (std::size_t d = 0; d < 3; ++d)
-    section.require(box->periodic[d], "periodic",
-                    "leaves walls across {}, and a case with [lubrication] has none; it must be "
-                    "[true, true, true], or the case must have no [domain]",
-                    kAxes[d]);
 }
 
 void refuse_solver(const case_file::TomlSection& root, const ParticlesCase& c) {
@@ -230,16 +351,131 @@ void check_beside_lubrication(const case_file::TomlSection& root, const Particle
   }
 }
 
-PairLubrication read_lubrication(const case_file::TomlSection& root, const Domain& domain,
-                                 bool& compares) {
-  check_domain(root, domain);
+void read_lubrication(const case_file::TomlSection& root, ParticlesCase& c) {
   LubricationKeys keys;
-  case_file::read_keys(root.section("lubrication"), lubrication_keys, keys, domain);
-  compares = keys.compares;
-  return keys.pairs;
+  const auto section = root.section("lubrication");
+  case_file::read_keys(section, lubrication_keys, keys, c.setting.domain);
+  c.compares = keys.compares;
+  if (!keys.fits.empty())
+    case_file::at_key(section, "fits", [&] {
+      c.fit_files = motions::fit_files_in(c.path.parent_path() / keys.fits);
+      keys.pairs.fits =
+          std::make_shared<motions::FittedPairs>(motions::read_fitted_pairs(c.fit_files));
+    });
+  c.setting.lubrication = std::move(keys.pairs);
 }
 
-void check_range(const case_file::TomlSection& root, const ParticlesCase& c) {
+void check_plane_in_flow(const case_file::TomlSection& section, const Plane& plane,
+                         const ParticlesCase& c) {
+  const auto& pairs = *c.setting.lubrication;
+  const auto require_none = [&](const std::optional<PlaneFault>& fault) {
+    if (fault) section.fail(fault->key, fault->message);
+  };
+  if (strains_cell(pairs, c.setting.domain))
+    section.fail("normal",
+                 "belongs to a plane in a box with three periods whose flow is no shear along x "
+                 "that changes along y; the case must have one of both");
+  require_none(fault_of_plane(plane, pairs, false));
+  if (pairs.stress)
+    section.fail("normal",
+                 "belongs to a plane beside lubrication.velocity.stress, whose rate is a result; "
+                 "beside planes the rate of the flow must be given");
+  double t = 0;
+  do {
+    const auto flow = pairs.flow_at(t);
+    auto gradient = flow.gradient;
+    // A plane in a wave is where the fluid always rests.
+    for (auto& row : gradient) row = (pairs.wave ? pairs.wave->largest() : 1) * row;
+    require_none(fault_of_motion(plane, gradient, t, t));
+    // The last piece of the flow holds for ever.
+    t = std::min(plane.velocity.next_end(t), flow.until > t ? flow.until : c.end_time);
+  } while (t < c.end_time);
+}
+
+void check_pieces_of_flow(const case_file::TomlSection& root, const ParticlesCase& c) {
+  const auto section = root.section("lubrication");
+  if (!section.has("velocity")) return;
+  const auto flow = section.section("velocity");
+  for (const auto* key : {"shear_rate", "strain_rate", "gradient", "stress"}) {
+    if (!flow.has(key) || !flow.is_array_of_tables(key)) continue;
+    double before = 0;
+    const double least = StepGrid::least_piece(c.setting.time_step);
+    for (const auto& piece : flow.sections(key)) {
+      const double until = piece.number("until", kPositive);
+      piece.require(c.end_time == 0 || until - before >= least, "until",
+                    "makes a piece of the length {:.6g}; it must be at least {:.6g} long, because "
+                    "steps pass by a shorter one",
+                    until - before, least);
+      before = until;
+    }
+    flow.require(before >= c.end_time * (1 - 1e-9), key,  // 1e-9 is far above rounding errors
+                 "ends at {}; it must reach the end of the case, at the time {}", before,
+                 c.end_time);
+  }
+}
+
+void set_velocities_of_flow(const GivenAtStart& given, ParticlesCase& c) {
+  const auto& pairs = *c.setting.lubrication;
+  const double rate = pairs.factor(0, 0);
+  const auto g = pairs.flow_at(0).gradient;
+  const Vector turn{(g[2][1] - g[1][2]) / 2, (g[0][2] - g[2][0]) / 2, (g[1][0] - g[0][1]) / 2};
+  auto& p = c.particles;
+  for (std::size_t k = 0; k < p.count(); ++k)
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (k >= given.velocities.size() || !given.velocities[k])
+        p.velocities[3 * k + d] = rate * dot(g[d], p.position(k));
+      if (k >= given.turns.size() || !given.turns[k])
+        p.angular_velocities[3 * k + d] = rate * turn[d];
+    }
+}
+
+namespace {
+
+/// Throws Error(kBadInput) if the box cannot be turned for its flow, or if its faces would come
+/// nearer than `least` [L].
+void check_strained_box(const case_file::TomlSection& root, ParticlesCase& c, double least) {
+  using suspensions::StrainedLattice;
+  auto& pairs = *c.setting.lubrication;
+  if (!has_turn(pairs, c.setting.domain) || !pairs.turns_box) return;
+  const auto lubrication = root.section("lubrication");
+  if (c.end_time == 0) {
+    lubrication.require(!lubrication.has("turned"), "turned",
+                        "is true, and the case ends at the time 0; the box is not turned for an "
+                        "instant, and the key must be left out");
+    pairs.turns_box = false;
+    return;
+  }
+  const auto [direction, sense, lowest] = path_of(pairs);
+  const auto lengths = periods_of(c.setting.domain);
+  const auto [shortest, longest] = std::ranges::minmax(lengths);
+  constexpr double kRounding = 1e-12;
+  const auto kind = StrainedLattice::kind_of(direction);
+  const auto box = root.section("domain").section("box");
+  box.require(kind != StrainedLattice::Kind::kCubic || longest - shortest <= kRounding * longest,
+              "to",
+              "makes edges from {:.6g} to {:.6g}; an extension along three axes turns the box and "
+              "needs a cube, or lubrication.turned must be false, with which the strain is limited",
+              shortest, longest);
+  const StrainedLattice lattice(lengths, direction, true);
+  const double height = lattice.least_height();
+  box.require(height >= least, "to",
+              "makes a box whose faces come as near as {:.6g} while the flow strains it; they must "
+              "stay {:.6g} apart, twice the largest distance of a pair, so that the edges must be "
+              "at least {:.3g} times as long",
+              height, least, least / height);
+  const auto flow = lubrication.section("velocity");
+  const char* key = flow.has("gradient") ? "gradient" : "strain_rate";
+  flow.require(lattice.least_height(lowest) >= least, key,
+               "goes back by the strain {:.6g} beyond its start, where opposite faces of the "
+               "strained cell come nearer than {:.6g}, twice the largest distance of a pair; the "
+               "edges of the box in the plane of the flow must be equal and the flow without "
+               "rotation, or it must go back less far",
+               -lowest, least);
+}
+
+}  // namespace
+
+void check_range(const case_file::TomlSection& root, ParticlesCase& c) {
   const double radius = std::ranges::max(c.particles.radii);
   // The largest distance of a pair; each pair has one image that is so near.
   const double distance = 2 * radius * (1 + c.setting.lubrication->range / 2);
@@ -250,6 +486,7 @@ void check_range(const case_file::TomlSection& root, const ParticlesCase& c) {
           "makes the period {:.6g}, which is too short for the range of lubrication, {}, of the "
           "largest radius, {}; it must be at least {:.6g}, twice the largest distance of a pair",
           period, c.setting.lubrication->range, radius, 2 * distance);
+  check_strained_box(root, c, 2 * distance);
 }
 
 void set_film_of_pairs(ParticlesCase& c) {
@@ -270,10 +507,10 @@ void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                  "must be left out, because it follows from lubrication.viscosity and roughness");
   for (const auto* key : {"restitution", "scheme"})
     keys.require(!keys.has(key), key, "is not possible with [lubrication]; it must be left out");
-  const double rate = rate_of(pairs);
+  const double rate = largest_rate_of_strain(pairs);
   const auto in_time = [&](double& time, std::string_view key, std::string_view in_strain,
                            const case_file::Help& help, const case_file::Help& help_in_strain,
-                           const Allowed& allowed, bool is_required) {
+                           const Allowed& allowed, bool is_required, const auto& time_of) {
     keys.required_if(is_required && !keys.has(in_strain), key, case_file::number(time, allowed),
                      help);
     double strain = 0;
@@ -283,27 +520,32 @@ void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                  "needs a flow of a given rate, whose strain it is; lubrication.velocity must have "
                  "one, or the case {} in place of this key",
                  key);
-    if (keys.reads()) time = strain / rate;
+    if (!keys.reads()) return;
+    time = time_of(strain);
+    keys.require(std::isfinite(time), in_strain,
+                 "is {}, which the strain does not reach, because the flow stops before; the case "
+                 "must have {} in place of this key",
+                 strain, key);
   };
   in_time(c.end_time, "end_time", "end_strain",
-          {"end of the simulation. 0: no step is made, and the results are the velocities and the "
-           "stress at the start",
+          {"end of the simulation. 0: no step is made, no box is turned, and the results are the "
+           "velocities and the stress at the start",
            "required without `end_strain`"},
           {"in place of `end_time`, with a flow: the time over which the strain grows to this "
            "number. The rate of strain is the root of 2 E:E, with the symmetric part E of the "
-           "velocity gradient: in a shear `shear_rate`, with `strain_rate` twice this rate",
+           "velocity gradient: in a shear the magnitude of `shear_rate`, with `strain_rate` twice "
+           "this magnitude. In both directions of a flow the strain grows",
            "from `end_time`"},
-          kModeratelyPositiveOr0, true);
-  keys.require(!pairs.stress || c.end_time == 0, "end_time",
-               "is {}; it must be 0 with lubrication.velocity.stress, because steps need a given "
-               "rate: the velocities and the rate at the start are computed",
-               c.end_time);
+          kModeratelyPositiveOr0, true,
+          [&](double strain) { return time_of_strain(pairs, strain); });
   double& step = c.setting.time_step;
   const bool has_steps = c.end_time > 0 || !keys.reads();
   in_time(step, "time_step", "strain_step",
           {"at most `end_time`", "required without `strain_step`, unless `end_time` is 0"},
-          {"in place of `time_step`, as `end_strain`", "from `time_step`"}, kModeratelyPositive,
-          has_steps);
+          {"in place of `time_step`, as `end_strain`; in a flow whose rate changes the strain of a "
+           "step at the largest rate",
+           "from `time_step`"},
+          kModeratelyPositive, has_steps, [&](double strain) { return strain / rate; });
   if (!has_steps && step == 0) step = rate > 0 ? 1 / rate : 1;
   const char* step_key = keys.has("strain_step") ? "strain_step" : "time_step";
   // Times that come from strains have rounding errors.
@@ -325,6 +567,7 @@ void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
 std::vector<case_file::KeyTable> lubrication_tables() {
   return {case_file::describe_keys("[lubrication]", lubrication_keys, Domain{}),
           case_file::describe_keys("lubrication.velocity", flow_keys),
+          case_file::describe_keys("lubrication.velocity.shear_rate", wave_keys),
           case_file::describe_keys("[viscous_contact] with [lubrication]", lubricated_contact_keys),
           case_file::describe_keys("viscous_contact.repulsion", repulsion_keys)};
 }

@@ -64,9 +64,9 @@ void check_keys(const case_file::TomlSection& section, const ParticlesCase& c) {
                     "gives the motion of this particle, and a case with [lubrication] computes the "
                     "motion of all; the key must be left out");
   for (const auto* key : {"velocity", "angular_velocity", "moment_of_inertia"})
-    section.require(!pairs || !section.has(key), key,
-                    "has no effect, because spheres with lubrication have no inertia; it must be "
-                    "left out");
+    section.require(!pairs || pairs->inertia || !section.has(key), key,
+                    "has no effect, because lubrication.inertia is false; it must be left out, or "
+                    "inertia be true");
   section.require(dimension != 3 || !section.has("angle"), "angle",
                   "must be left out, because the orientation of a sphere changes nothing");
 }
@@ -190,9 +190,10 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
   keys.optional("force", pieces(p.force, dimension, c.end_time), {"is added to gravity", "0"});
   keys.optional("torque", pieces_of_turn(p.torque, dimension, c.end_time),
                 {"in 2D counter-clockwise", "0"});
-  keys.optional("velocity", vector(p.velocity, dimension), {"at time 0", "0"});
+  keys.optional("velocity", vector(p.velocity, dimension),
+                {"at time 0", "0, with `[lubrication]` that of the flow"});
   keys.optional("angular_velocity", turn(p.angular_velocity, dimension),
-                {"at time 0, in 2D counter-clockwise", "0"});
+                {"at time 0, in 2D counter-clockwise", "0, with `[lubrication]` that of the flow"});
   keys.required("centre", vector(p.centre, dimension), {"at time 0"});
   const bool has_shape = read_shape_keys(keys, false, p);
   keys.required_if(
@@ -234,7 +235,7 @@ Vector at_start(const PiecewiseConstant& function) {
   return function.pieces.empty() ? Vector{} : function.pieces.front().value;
 }
 
-void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
+void read_particle(const case_file::TomlSection& section, ParticlesCase& c, GivenAtStart& given) {
   auto& p = c.particles;
   const bool in_fluid = c.setting.fluid.has_value();
   require_ids(section, "centre", p, 1);
@@ -265,6 +266,8 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
     add_rotation_of_last(section, table, p);
   }
   add_missing_ids(p);
+  given.velocities.push_back(section.has("velocity"));
+  given.turns.push_back(section.has("angular_velocity"));
 }
 
 void file_keys(case_file::Keys& keys, std::string& file) {
@@ -273,7 +276,7 @@ void file_keys(case_file::Keys& keys, std::string& file) {
 
 /// Reads the CSV file that [particles] names, relative to the folder of the case file.
 void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase& c,
-                            ParticleLines& lines) {
+                            ParticleLines& lines, GivenAtStart& given) {
   std::string name;
   case_file::read_keys(section, file_keys, name);
   c.particles_file = c.path.parent_path() / name;
@@ -282,6 +285,8 @@ void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase
   c.particles = std::move(file.particles);
   lines.in_file = std::move(file.lines);
   auto& p = c.particles;
+  given.velocities = std::move(file.has_velocity);
+  given.turns = std::move(file.has_angular_velocity);
   if (in_fluid && p.dimension == 2)
     for (std::size_t k = 0; k < p.count(); ++k)
       p.inertias.push_back(round_shape(2, p.radii[k]).inertia(p.masses[k]));
@@ -305,10 +310,11 @@ void force_by_id_keys(case_file::Keys& keys, ForceTable& force, const ParticlesC
 
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c) {
   ParticleLines lines;
-  if (root.has("particles")) read_file_of_particles(root.section("particles"), c, lines);
+  GivenAtStart given;
+  if (root.has("particles")) read_file_of_particles(root.section("particles"), c, lines, given);
   if (root.has("particle"))
     for (const auto& section : root.sections("particle")) {
-      read_particle(section, c);
+      read_particle(section, c, given);
       lines.in_case.push_back(section.line());
     }
   if (root.has("arrangement")) read_arrangement(root.section("arrangement"), c);
@@ -318,6 +324,7 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
   add_missing_shapes(c.particles);
   if (!c.setting.fluid && (c.setting.laws.friction || c.setting.lubrication || c.particles.turn()))
     add_rotation(c.particles);
+  if (c.setting.lubrication && c.setting.lubrication->inertia) set_velocities_of_flow(given, c);
   if (c.particles.count() > 0 || !c.setting.sources.empty()) return lines;
   if (!c.particles_file.empty())
     throw_bad_input({c.particles_file.string()},

@@ -399,10 +399,10 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   if (root.has("lubrication")) check_beside_lubrication(root, c);
   read_domain_and_fluid(root, c);
   read_probes(root, c.setting.domain, c.setting.fluid);
-  if (root.has("lubrication"))
-    c.setting.lubrication = read_lubrication(root, c.setting.domain, c.compares);
+  if (root.has("lubrication")) read_lubrication(root, c);
   case_file::read_keys(root.section("viscous_contact"),
                        c.setting.lubrication ? lubricated_contact_keys : contact_keys, c);
+  if (c.setting.lubrication) check_pieces_of_flow(root, c);
   if (root.has("friction")) read_friction(root.section("friction"), c);
   if (root.has("solver")) case_file::read_keys(root.section("solver"), solver_keys, c);
   c.frame_interval = c.end_time > 0 ? c.end_time / 100 : c.setting.time_step;
@@ -411,6 +411,7 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
     for (const auto& section : root.sections("plane")) {
       case_file::read_keys(section, plane_keys, c.setting.planes.emplace_back(), c);
       check_periods_of_plane(section, c.setting.planes.back(), c.setting.domain);
+      if (c.setting.lubrication) check_plane_in_flow(section, c.setting.planes.back(), c);
     }
   if (std::ranges::find(c.tables, "walls") != c.tables.end())
     root.section("output").require(!obstacles_of(c.setting).empty(), "tables",
@@ -467,6 +468,12 @@ void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
   }
 }
 
+std::vector<fs::path> files_of(const ParticlesCase& c) {
+  auto files = c.fit_files;
+  if (!c.particles_file.empty()) files.insert(files.begin(), c.particles_file);
+  return files;
+}
+
 ParticlesCase read_particles_case(const fs::path& path) {
   return case_file::read_case_file<ParticlesCase>(path);
 }
@@ -497,6 +504,10 @@ std::string text_for_any_folder(const case_file::TomlSection& root, const fs::pa
       paths.emplace_back("particles.file",
                          (folder / section.text("file")).lexically_normal().string());
   }
+  if (root.has("lubrication") && root.section("lubrication").has("fits"))
+    paths.emplace_back(
+        "lubrication.fits",
+        (folder / root.section("lubrication").text("fits")).lexically_normal().string());
   if (root.has("fluid") && root.section("fluid").has("solver")) {
     const auto command = with_absolute_files(root.section("fluid").texts("solver"), folder);
     for (std::size_t word = 0; word < command.size(); ++word)

@@ -25,9 +25,10 @@ struct ParticlesCase {
   /// The particles at time 0: those of the CSV file, of the tables [[particle]], of [arrangement]
   /// and of [[membrane]], in this order. Their dimension is 1 (spheres on an axis), 2 or 3.
   Particles particles;
-  std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
-  /// Time at which the run ends [T], 1e-100 to 1e100. With lubrication it may be 0: no step is made,
-  /// and the velocities are those at the start.
+  std::filesystem::path particles_file;          ///< the CSV file; empty if there is none
+  std::vector<std::filesystem::path> fit_files;  ///< of lubrication.fits
+  /// Time at which the run ends [T], 1e-100 to 1e100. With lubrication it may be 0: no step is
+  /// made, and the velocities are those at the start.
   double end_time = 0;
   double frame_interval = 0;  ///< time between outputs (frames) [T], 1e-100 to 1e100
   /// Time at which means over time begin [T], >= 0, < end_time unless that is 0.
@@ -48,6 +49,9 @@ struct ParticlesCase {
   std::optional<case_file::SweepRequest> sweep;
 };
 
+/// The files that the case names: of particles and of fits.
+std::vector<std::filesystem::path> files_of(const ParticlesCase& c);
+
 /// The columns that steps.csv has on request: the stages of the contact solver with their
 /// iterations, StepReport::solver_stages.
 inline constexpr auto kStepColumns = std::to_array<std::string_view>({"solver_stages"});
@@ -63,10 +67,10 @@ inline constexpr auto kStepColumns = std::to_array<std::string_view>({"solver_st
 /// (check_fluid_start() in particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
-/// Sets the film of viscous contact (5.2) in a case with pairs = "none": with a roughness, gamma_min
-/// is the impulse of the film from the effective radius, where it begins without a fluid, too, to
-/// the roughness times the mean radius of all particles, of which there must be one. Without a
-/// roughness the film has no end.
+/// Sets the film of viscous contact (5.2) in a case with pairs = "none": with a roughness,
+/// gamma_min is the impulse of the film from the effective radius, where it begins without a fluid,
+/// too, to the roughness times the mean radius of all particles, of which there must be one.
+/// Without a roughness the film has no end.
 void set_film_of_pairs(ParticlesCase& c);
 
 /// Reads a case into `c` from the root table of its file; c.path must have been set. Throws the

@@ -83,21 +83,34 @@ Domain read_domain(const case_file::TomlSection& section, int dimension);
 /// Throws if a case with [lubrication] has another dimension than 3, or a section that cannot stand
 /// beside it.
 void check_beside_lubrication(const case_file::TomlSection& root, const ParticlesCase& c);
-/// Reads [lubrication]. `compares` becomes true if the case is to be run a second time with contact
-/// alone. Also throws if the domain has walls, or if the flow would change a periodic cell in
-/// another way than a shear along x.
-PairLubrication read_lubrication(const case_file::TomlSection& root, const Domain& domain,
-                                 bool& compares);
-/// Throws if a period of the domain is too short for the range of a pair. The particles must have
-/// been read, at least one.
-void check_range(const case_file::TomlSection& root, const ParticlesCase& c);
+/// Reads [lubrication] and the fits that it names. Path and domain of the case must be set.
+/// Also throws if the flow does not carry the images of spheres, or does not stick to the walls of
+/// the domain.
+void read_lubrication(const case_file::TomlSection& root, ParticlesCase& c);
+/// Throws at a piece of the flow that is too short for the steps, and if the last one ends before
+/// the case. The end and the step must have been read.
+void check_pieces_of_flow(const case_file::TomlSection& root, const ParticlesCase& c);
+/// Throws if a period of the domain is too short for the range of a pair, at any strain. The
+/// particles must have been read, at least one. No box is turned for an instant.
+void check_range(const case_file::TomlSection& root, ParticlesCase& c);
+/// Throws at the key of a `[[plane]]` that cannot stand in the flow of [lubrication] until the end.
+void check_plane_in_flow(const case_file::TomlSection& section, const Plane& plane,
+                         const ParticlesCase& c);
+/// The velocities of the flow at the centres, at the start, of particles with inertia whose
+/// velocities are not given.
+struct GivenAtStart {
+  std::vector<bool> velocities, turns;  ///< of each particle
+};
+void set_velocities_of_flow(const GivenAtStart& given, ParticlesCase& c);
 /// Declares the keys of [viscous_contact] in a case with [lubrication]: the end and the step, in
 /// units of time or of strain, and the contact of the solids.
 void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c);
 std::vector<case_file::KeyTable> lubrication_tables();
 
-/// Whether particles may have no mass: in a fluid, and with lubrication.
-inline bool may_lack_mass(const Setting& setting) { return setting.fluid || setting.lubrication; }
+/// Whether particles may have no mass: in a fluid, and with lubrication without inertia.
+inline bool may_lack_mass(const Setting& setting) {
+  return setting.fluid || (setting.lubrication && !setting.lubrication->inertia);
+}
 
 /// Reads [fluid], which the walls or periods of `domain` hold. If the section does not give
 /// threshold_gap, it is 0 in the result, and set_default_threshold_gap() must set its default. Also

@@ -104,7 +104,7 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
     throw Error(ErrorKind::kWrongUsage, "{} points with {} draws are more than {} rows",
                 points_.count(), points_.draws, kMostRows);
   const auto base = cases_.with({});
-  particles_file_ = base.particles_file;
+  files_ = files_of(base);
   if (base.arrangement) points_.first_draw = base.arrangement->seed;
   if (points_.draws > 0 && !base.arrangement)
     throw Error(ErrorKind::kWrongUsage, "{} has no section [arrangement], which draws need",
@@ -131,8 +131,9 @@ std::string ParticlesSweep::base_text() const {
 
 std::string ParticlesSweep::identity(std::uint64_t index, const std::string& version) const {
   assert(index < points_.rows());
-  return sha256(fmt::format("{}\n{}\n{}", version, case_text(index),
-                            particles_file_.empty() ? "" : sha256(read_file(particles_file_))));
+  std::string hashes;
+  for (const auto& file : files_) hashes += sha256(read_file(file));
+  return sha256(fmt::format("{}\n{}\n{}", version, case_text(index), hashes));
 }
 
 sweep::Study ParticlesSweep::study(const std::string& version, ParticlesRunner run) const {

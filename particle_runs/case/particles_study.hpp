@@ -60,13 +60,13 @@ class ParticlesSweep {
   /// The text of a case file in which no key has been varied, in any folder.
   std::string base_text() const;
 
-  /// The CSV file of particles that the case names; empty if there is none.
-  const std::filesystem::path& particles_file() const { return particles_file_; }
+  /// The files that the case names (files_of()).
+  const std::vector<std::filesystem::path>& files() const { return files_; }
   const Units& units() const { return units_; }  ///< may be empty
 
   /// Hash (SHA-256) of everything that determines the results of row `index`: the version of
-  /// Viscontact, the case, and the CSV file of particles. Results with the same identity are not
-  /// computed again. Throws Error(kBadInput) if the CSV file cannot be read.
+  /// Viscontact, the case, and the files that it names. Results with the same identity are not
+  /// computed again. Throws Error(kBadInput) if a file cannot be read.
   std::string identity(std::uint64_t index, const std::string& version) const;
 
   /// The sweep in the form that sweep/study.hpp computes and writes; `run` computes its rows.
@@ -76,7 +76,7 @@ class ParticlesSweep {
  private:
   case_file::CaseTemplate<ParticlesCase> cases_;
   sweep::Points points_;
-  std::filesystem::path particles_file_;
+  std::vector<std::filesystem::path> files_;
   Units units_;
   std::vector<std::string> result_columns_;
 };

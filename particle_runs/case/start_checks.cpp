@@ -50,8 +50,8 @@ std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
 
 namespace {
 
-/// The gaps of overlapping spheres in a cell whose images across y are displaced along x. The period
-/// along y is above twice the sum of any two radii.
+/// The gaps of overlapping spheres in a cell whose images across y are displaced along x. The
+/// period along y is above twice the sum of any two radii.
 std::vector<StartGap> overlaps_in_sheared_cell(const ParticlesCase& c, double offset) {
   const auto& p = c.particles;
   auto cell = cell_of(c.setting.domain);

@@ -150,10 +150,11 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
     std::ranges::copy(fields, rows.emplace_back(Row{{}, line}).fields.begin());
   });
   check_header(text, file, names, dimension, in_fluid);
-  const auto turns = [](const Row& row) {
-    return std::any_of(row.fields.begin() + kAngle, row.fields.end(),
+  const auto any_of = [](const Row& row, std::size_t from, std::size_t to) {
+    return std::any_of(&row.fields[from], row.fields.data() + to,
                        [](const auto& field) { return field.has_value(); });
   };
+  const auto turns = [&](const Row& row) { return any_of(row, kAngle, kColumns); };
   const bool any_turns = dimension != 1 && std::ranges::any_of(rows, turns);
   const bool rotate = dimension == 2 && (in_fluid || any_turns);
   const bool spin = dimension == 3 && any_turns;
@@ -183,6 +184,8 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
             ? 0
             : allowed(row, names, d + 1, in_fluid ? Sign::kNotNegative : Sign::kPositive, file));
     for (std::size_t i = d + 2; i < 2 * d + 2; ++i) p.velocities.push_back(given_or_0(i));
+    result.has_velocity.push_back(any_of(row, d + 2, 2 * d + 2));
+    result.has_angular_velocity.push_back(any_of(row, kAngularVelocity, kColumns));
     if (rotate) {
       p.angles.push_back(given_or_0(kAngle));
       p.angular_velocities.push_back(given_or_0(kAngularVelocity));

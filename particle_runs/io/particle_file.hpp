@@ -15,14 +15,16 @@ namespace viscontact::particles {
 struct ParticleFile {
   Particles particles;     ///< in the order of the file
   std::vector<int> lines;  ///< of each particle in the file, from 1
+  /// Of each particle: whether its row has a component of the velocity, or of the angular velocity.
+  std::vector<bool> has_velocity{}, has_angular_velocity{};
 };
 
 /// Reads a file. `dimension` is 1 (spheres on an axis), 2 (discs) or 3 (spheres). The columns are
 /// x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. In a fluid (`in_fluid`), and for
-/// spheres with lubrication without inertia, masses may be 0 or missing. Without columns of velocities the
-/// particles are at rest; without the column id, or with ids 0, 1, ..., Particles::ids is empty.
-/// The file final_particles.csv of a run can be read, too, unless the run has other shapes than
-/// discs and spheres.
+/// spheres with lubrication without inertia, masses may be 0 or missing. Without columns of
+/// velocities the particles are at rest; without the column id, or with ids 0, 1, ...,
+/// Particles::ids is empty. The file final_particles.csv of a run can be read, too, unless the run
+/// has other shapes than discs and spheres.
 ///
 /// On an axis (dimension 1) the columns are z,radius,mass and, if they exist, vz and id. In a fluid
 /// (`in_fluid`) discs have an angle and an angular velocity, which are 0 if their columns are

@@ -29,6 +29,8 @@ struct Frame {
   std::vector<float> speeds{};  ///< of each particle [L/T], >= 0; empty: not known
   /// With lubrication in a periodic box: displacement along x of the image across the period y [L].
   std::optional<double> offset{};
+  /// Of a cell that a flow strains: PeriodicCell::vectors [L].
+  std::optional<std::array<Vector, 3>> periods{};
   /// File of the flow around the particles (flow_vtk.hpp); empty if there is none. All flows
   /// together may be too large for the memory.
   std::filesystem::path flow{};
@@ -44,6 +46,8 @@ struct DrawnLinks {
 
 struct Playback {
   int dimension = 2;  ///< 1, 2 or 3
+  /// The axis that points upwards in pictures of a motion in space, 1 or 2.
+  std::size_t up = 2;
   /// The place in the case of the origin of all places here [L]. It is 0 unless the motion is so
   /// far from the origin of the case that single precision would not show it. Files of flows have
   /// the places of the case.
@@ -71,11 +75,8 @@ struct Playback {
 inline PeriodicCell cell_at(const Playback& playback, const Frame& frame) {
   auto cell = playback.cell;
   cell.moved_for = frame.time;
-  if (frame.offset) {
-    assert(cell.lengths[1] > 0);
-    cell.gradient = {0, *frame.offset / cell.lengths[1], 0, 0};
-    cell.moved_for = 1;
-  }
+  cell.offset = frame.offset;
+  if (frame.periods) cell.vectors = frame.periods;
   return cell;
 }
 

@@ -18,7 +18,7 @@ namespace viscontact::particles {
 namespace {
 
 // Another one means other fields.
-constexpr int kVersion = 14;
+constexpr int kVersion = 17;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -306,7 +306,9 @@ bool is_consistent(const State& state) {
          std::isfinite(state.earlier_step) && state.earlier_step >= 0 &&
          std::isfinite(state.step_before) && state.step_before >= 0 &&
          std::isfinite(state.shear.strain) && std::isfinite(state.shear.rate) &&
-         std::isfinite(state.shear.offset);
+         std::isfinite(state.shear.offset) && std::isfinite(state.shear.net_strain) &&
+         std::ranges::all_of(state.shear.periods,
+                             [](const Vector& x) { return std::isfinite(norm(x)); });
 }
 
 /// True if the numbers of the particles, the image and the place of the contact are in their

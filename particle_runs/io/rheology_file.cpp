@@ -40,7 +40,10 @@ constexpr int kSpace = 3;
 const std::vector<Column<Rheology>>& rheology_columns() {
   static const std::vector<Column<Rheology>> columns = {
       if_known<&Rheology::time>("time", "at the end of the step", "T"),
-      if_known<&Rheology::strain>("strain", "since the start of the case"),
+      if_known<&Rheology::strain>(
+          "strain",
+          "since the start of the case, of whatever direction: the integral of the magnitude of "
+          "the shear rate"),
       of_stress<&Rheology::viscosity>(
           "viscosity",
           "relative to that of the fluid: shear stress over viscosity and shear rate, > 0 for both "
@@ -61,8 +64,12 @@ const std::vector<Column<Rheology>>& rheology_columns() {
       column<&Rheology::pairs>({"pairs", "", "number of close pairs", kNotInFrames}),
       column<&Rheology::contacts>({"contacts", "", "number of contacts", kNotInFrames}),
       if_known<&Rheology::smallest_gap>("smallest_gap", "empty without pairs", "L"),
-      if_known<&Rheology::shear_rate>("shear_rate", "given, or the result of a given stress",
-                                      "1/T"),
+      if_known<&Rheology::shear_rate>(
+          "shear_rate",
+          "given, or the result of a given stress, with the sign of `shear_rate` or `strain_rate`, "
+          "or of the first derivative in `gradient` that is not 0",
+          "1/T"),
+      if_known<&Rheology::net_strain>("net_strain", "the integral of the column `shear_rate`"),
   };
   return columns;
 }
@@ -89,11 +96,13 @@ std::vector<Rheology> read_rheology(const std::filesystem::path& path) {
                                    &Rheology::viscosity,
                                    &Rheology::viscosity_film,
                                    &Rheology::viscosity_contact,
-                                   &Rheology::viscosity_friction};
-  const auto file = read_csv<kMembers.size()>(
-      path,
-      {"time", "strain", "viscosity", "viscosity_film", "viscosity_contact", "viscosity_friction"},
-      kMembers.size());
+                                   &Rheology::viscosity_friction,
+                                   &Rheology::net_strain};
+  const auto file =
+      read_csv<kMembers.size()>(path,
+                                {"time", "strain", "viscosity", "viscosity_film",
+                                 "viscosity_contact", "viscosity_friction", "net_strain"},
+                                kMembers.size());
   std::vector<Rheology> read;
   for (const auto& row : file.rows) {
     auto& rheology = read.emplace_back();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "viscontact/particle_runs/io/columns.hpp"
-#include "viscontact/suspensions/rheology.hpp"
+#include "viscontact/suspensions/values/rheology.hpp"
 
 namespace viscontact::particles {
 
@@ -28,13 +28,13 @@ const std::vector<Column<Rheology>>& rheology_columns();
 std::string rheology_header();
 std::string rheology_row(const Rheology& rheology);
 
-/// The times, strains and viscosities of the rows of a file, with NaN where a field is empty, and no
-/// other members. Throws Error(kBadInput), which names the
-/// file, if it cannot be read or has other columns.
+/// The times, strains and viscosities of the rows of a file, with NaN where a field is empty, and
+/// no other members. Throws Error(kBadInput), which names the file, if it cannot be read or has
+/// other columns.
 std::vector<Rheology> read_rheology(const std::filesystem::path& path);
 
-/// Number of pairs per volume at a distance, over that of spheres without order [1]. The distance is
-/// that of the centres over the sum of the radii, so that spheres of all radii touch at 1.
+/// Number of pairs per volume at a distance, over that of spheres without order [1]. The distance
+/// is that of the centres over the sum of the radii, so that spheres of all radii touch at 1.
 struct PairDistributionRow {
   double distance = 0;  ///< the middle of a bin
   double all = 0;

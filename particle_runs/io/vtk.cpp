@@ -68,6 +68,15 @@ std::string arrays_of(const std::vector<AnyColumn>& columns, const Rows& rows, c
   return text;
 }
 
+/// VTK takes the number of rows of field data from the element itself.
+std::string periods_as_field(const std::array<Vector, 3>& periods) {
+  std::vector<double> numbers;
+  for (const auto& period : periods) numbers.insert(numbers.end(), period.begin(), period.end());
+  auto element = vtk_array("periods", 3, numbers);
+  element.insert(element.find("format="), "NumberOfTuples=\"3\" ");
+  return "<FieldData>\n" + element + "</FieldData>\n";
+}
+
 }  // namespace
 
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
@@ -77,7 +86,12 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
     append(points, particles.position(k), particles.dimension);
   const ContactCells listed(particles, contacts);
   std::string text = vtk_opening("PolyData");
-  text += listed.cells.opening(particles.count());
+  auto opening = listed.cells.opening(particles.count());
+  if (const auto& cell = particles.cell; cell.vectors || cell.offset)
+    opening.insert(opening.find("<Piece"), periods_as_field({shift_of(cell, Periods{1, 0, 0}),
+                                                             shift_of(cell, Periods{0, 1, 0}),
+                                                             shift_of(cell, Periods{0, 0, 1})}));
+  text += opening;
   auto run = facts_of(particles);
   run.has_friction = has_friction;
   text += "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";

@@ -1,7 +1,9 @@
 // Frames, the states of a simulation at the output times, as VTK files for ParaView.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,7 +26,8 @@ namespace viscontact::particles {
 /// ids_of() (a negative one names an obstacle), and, in a periodic domain, image: the number of the
 /// periodic image of the second particle, -13 to 13. With `has_friction` they also have friction
 /// (0: none, 1: sticks, 2: slides), tangential_force and solid_force [M L/T^2]. Numbers of discs in
-/// a fluid are per length.
+/// a fluid are per length. The field data of a cell of a suspension (PeriodicCell::offset or
+/// vectors) have the array periods: three vectors [L], 0 along an axis without a period.
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
                       bool has_friction = false);
 
@@ -44,6 +47,7 @@ struct VtpContent {
   /// They have the places of particles in `radii`, not their ids. Errors of gamma, normals and
   /// branches, which no picture shows, are not in the file and keep their defaults.
   std::vector<CurrentContact> contacts;
+  std::optional<std::array<Vector, 3>> periods{};  ///< of a suspension [L]
 };
 
 /// Reads a file that write_vtp() wrote for particles of the dimension 1, 2 or 3 on a machine with

@@ -113,6 +113,12 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
     if (content.orientations.size() != points.size() / 3 * 4) reader.refuse();
   }
   content.contacts = read_contacts(reader, dimension, std::ssize(points) / 3);
+  if (reader.has_array("FieldData", "periods")) {
+    const auto numbers = reader.array<double>("FieldData", "periods");
+    if (numbers.size() != 9) reader.refuse();
+    auto& periods = content.periods.emplace();
+    for (std::size_t k = 0; k < 9; ++k) periods[k / 3][k % 3] = numbers[k];
+  }
   return content;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -101,7 +102,8 @@ std::string spring_path(const PanelSettings& panel, const Vector& from, const Ve
 
 /// The text is empty if the panel does not show the circle.
 std::string circle(const PanelSettings& panel, const Vector& at, double radius) {
-  const double x = panel.view.x(at), y = panel.view.y(at), r = panel.view.scale * radius;
+  const double x = panel.view.x(at), y = panel.view.y(at),
+               r = panel.view.scale * panel.view.nearness(at) * radius;
   return is_seen(panel, x, y, r)
              ? fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"/>\n", x, y, r)
              : "";
@@ -161,9 +163,11 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   return fmt::format("<g fill=\"{}\">\n{}</g>\n", kStyle.mark, text);
 }
 
-/// Dots at the ends of the three axes that turn with sphere k, on the side that the reader sees.
-/// The text is empty if the frame has no orientations or if the sphere is too small.
-std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k) {
+/// Dots at the ends of the three axes that turn with sphere k, whose centre is `at` [L], on the
+/// side that the reader sees. The text is empty if the frame has no orientations or if the sphere
+/// is too small.
+std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k,
+                              const Vector& at) {
   const double r = panel.scene.playback.radii[k];
   if (frame.orientations.size() != 4 * panel.scene.playback.radii.size() ||
       kStyle.axis_radius * r * panel.view.scale < FramePictureTuning::kSmallest)
@@ -180,8 +184,7 @@ std::string orientation_marks(const PanelSettings& panel, const Frame& frame, st
     for (const double side : {1.0, -1.0}) {
       const double towards = side * dot(axis, panel.view.toward);
       if (towards > kStyle.least_toward)
-        dots += circle(panel, position(panel.scene.playback, frame, k) + side * r * axis,
-                       kStyle.axis_radius * r * std::sqrt(towards));
+        dots += circle(panel, at + side * r * axis, kStyle.axis_radius * r * std::sqrt(towards));
     }
   return fmt::format("<g fill=\"{}\" stroke=\"none\">{}</g>\n", kStyle.mark, dots);
 }
@@ -354,8 +357,9 @@ std::string colour_of(const Scene& scene, const CurrentContact& contact) {
 }
 
 /// Width of the line of a contact [page units]. `radius` [page units] is the smaller one of its
-/// particles; of a plate it is half of the thickness.
-double width_of(const PanelSettings& d, const CurrentContact& contact, double radius) {
+/// particles; of a plate it is half of the thickness. `scale` is that of the view there.
+double width_of(const PanelSettings& d, const CurrentContact& contact, double radius,
+                double scale) {
   const auto width = [](const LineWidth& line, double r) {
     return std::clamp(line.share * r, line.least, line.most);
   };
@@ -364,7 +368,7 @@ double width_of(const PanelSettings& d, const CurrentContact& contact, double ra
   if (scene.top_force > 0)
     return std::max(
         width(is_film ? kStyle.film_with_force : kStyle.touching_with_force, radius),
-        width(kStyle.force_line, d.view.scale * scene.mean_radius) * force_share(scene, contact));
+        width(kStyle.force_line, scale * scene.mean_radius) * force_share(scene, contact));
   const bool is_wide = is_film || contact.friction == ContactFriction::kSlides;
   return width(is_wide ? kStyle.film_line : kStyle.touching_line, radius);
 }
@@ -414,7 +418,8 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
   }
   ContactLine line;
   line.colour = colour_of(d.scene, contact);
-  line.width = width_of(d, contact, d.view.scale * radius);
+  const double scale = d.view.scale * d.view.nearness(to);
+  line.width = width_of(d, contact, scale * radius, scale);
   // The line to a shifted image is drawn at both sides of the cell.
   line.path = path_of({from, to + shift}, d.view);
   if (contact.image != 0) line.path += path_of({from - shift, to}, d.view);
@@ -452,53 +457,118 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
   return text + "</g>\n" + link_marks(d, frame);
 }
 
+bool is_periodic_in_space(const PeriodicCell& cell) {
+  return std::ranges::all_of(cell.lengths, [](double length) { return length > 0; });
+}
+
+/// A sphere that is drawn, or its image.
+struct DrawnSphere {
+  double depth = 0;  ///< towards the reader [L]
+  std::size_t particle = 0;
+  Vector centre{};  ///< [L]
+};
+
+/// From the back to the front, because SVG has no depth: the spheres, and those images of which a
+/// part is in the cell.
+std::vector<DrawnSphere> drawn_spheres(const PanelSettings& d, const Frame& frame) {
+  std::vector<DrawnSphere> spheres;
+  const auto cell = cell_at(d.scene.playback, frame);
+  for_each_image(d, frame, [&](std::size_t k, const Vector& centre) {
+    const double depth = dot(d.view.toward, centre), r = d.scene.playback.radii[k];
+    if (std::isnan(depth)) return;  // the particle is not there yet
+    if (!is_near_cell(cell, centre, r)) return;
+    spheres.push_back({depth, k, centre});
+  });
+  std::ranges::stable_sort(spheres, {}, &DrawnSphere::depth);
+  return spheres;
+}
+
+/// The edges of the cell: the three that meet in the farthest corner, or the others.
+std::string cell_edges(const PanelSettings& d, const Frame& frame, bool behind) {
+  const auto cell = cell_at(d.scene.playback, frame);
+  std::array<Vector, 3> edges{};
+  for (std::size_t axis = 0; axis < 3; ++axis) edges[axis][axis] = cell.lengths[axis];
+  Vector from = cell.from;
+  if (cell.vectors) {
+    edges = *cell.vectors;
+    from = from + 0.5 * cell.lengths;
+    for (const auto& edge : edges) from = from - 0.5 * edge;
+  }
+  const auto corner = [&](int number) {
+    Vector p = from;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if ((number >> axis & 1) != 0) p = p + edges[axis];
+    return p;
+  };
+  int farthest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (dot(d.view.toward, edges[axis]) < 0) farthest |= 1 << axis;
+  std::string path;
+  for (int number = 0; number < 8; ++number)
+    for (int bit = 1; bit < 8; bit *= 2) {
+      const int other = number | bit;
+      if (other == number || behind != (number == farthest || other == farthest)) continue;
+      path += path_of({corner(number), corner(other)}, d.view);
+    }
+  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\".8\"{}/>\n", path,
+                     behind ? " stroke-dasharray=\"4 3\"" : "");
+}
+
 /// The panel of a motion in space. A contact is drawn just after the nearer of its two particles:
-/// over this particle and those behind it, and under those in front of it. Spheres are drawn from
-/// the back to the front, because SVG has no depth.
+/// over this particle and those behind it, and under those in front of it. Over translucent spheres
+/// all contacts are drawn.
 std::string spheres(const PanelSettings& d, const Frame& frame) {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
-    if (const double depth = dot(d.view.toward, position(d.scene.playback, frame, k));
-        !std::isnan(depth))  // NaN: the particle is not there yet
-      order.emplace_back(depth, k);
-  std::ranges::sort(order);
-  std::vector<std::size_t> rank(d.scene.playback.radii.size());
-  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i].second] = i;
+  const auto& playback = d.scene.playback;
+  const bool is_bulk = is_periodic_in_space(playback.cell);
+  const bool is_clear = is_bulk && d.scene.top_force > 0;
+  const auto order = drawn_spheres(d, frame);
+  std::vector<std::size_t> last(playback.radii.size());  // in `order`, of each particle
+  for (std::size_t i = 0; i < order.size(); ++i) last[order[i].particle] = i;
   std::vector<std::string> with(order.size());
+  std::string over;
   for (const auto& contact : frame.contacts) {
     if (!drawn(d, contact)) continue;
     const auto line = line_of(d, frame, contact);
-    auto at = rank[static_cast<std::size_t>(contact.second)];
-    if (contact.first >= 0) at = std::max(at, rank[static_cast<std::size_t>(contact.first)]);
-    with[at] += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n", line.colour,
-                            line.width, line.path);
+    auto at = last[static_cast<std::size_t>(contact.second)];
+    if (contact.first >= 0) at = std::max(at, last[static_cast<std::size_t>(contact.first)]);
+    (is_clear ? over : with[at]) +=
+        fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n", line.colour,
+                    line.width, line.path);
   }
   std::string text = plane_3d_patches(d, frame, true);
+  if (is_bulk) text += cell_edges(d, frame, true);
   text += fmt::format(
-      "<g fill=\"url(#ball)\" stroke=\"{}\" stroke-width=\".5\" stroke-linecap=\"round\">\n",
-      kStyle.ball.back());
+      "<g fill=\"url(#ball)\" stroke=\"{}\" stroke-width=\".5\" stroke-linecap=\"round\"{}>\n",
+      kStyle.ball.back(),
+      is_clear ? fmt::format(" fill-opacity=\"{0}\" stroke-opacity=\"{0}\"", kStyle.clear_ball)
+               : "");
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto k = order[i].second;
-    const auto sphere = circle(d, position(d.scene.playback, frame, k), d.scene.playback.radii[k]);
-    text +=
-        is_in_body(d.scene.playback, k) ? "<g fill=\"url(#body)\">" + sphere + "</g>\n" : sphere;
-    text += orientation_marks(d, frame, k) + with[i];
+    const auto k = order[i].particle;
+    const auto sphere = circle(d, order[i].centre, playback.radii[k]);
+    text += is_in_body(playback, k) ? "<g fill=\"url(#body)\">" + sphere + "</g>\n" : sphere;
+    if (!is_clear) text += orientation_marks(d, frame, k, order[i].centre);
+    text += with[i];
   }
-  return text + "</g>\n" + link_marks(d, frame) + plane_3d_patches(d, frame, false);
+  text += "</g>\n";
+  if (!over.empty()) text += "<g stroke-linecap=\"round\">\n" + over + "</g>\n";
+  if (is_bulk) text += cell_edges(d, frame, false);
+  return text + link_marks(d, frame) + plane_3d_patches(d, frame, false);
 }
 
 }  // namespace
 
-Projection view_of(int dimension) {
-  assert(dimension == 2 || dimension == 3);
+Projection view_of(int dimension, std::size_t up) {
+  assert((dimension == 2 || dimension == 3) && (up == 1 || up == 2));
   Projection view;
   if (dimension == 2) return view;
   const double turn = 30 * std::numbers::pi / 180, from_above = 20 * std::numbers::pi / 180;
   const double c = std::cos(turn), s = std::sin(turn), ca = std::cos(from_above),
                sa = std::sin(from_above);
-  view.right = {c, s, 0};
-  view.up = {-s * sa, c * sa, ca};
-  view.toward = {s * ca, -c * ca, sa};
+  // With the second axis upwards the third one takes the place of minus the second.
+  const auto turned = [&](const Vector& v) { return up == 2 ? v : Vector{v[0], v[2], -v[1]}; };
+  view.right = turned({c, s, 0});
+  view.up = turned({-s * sa, c * sa, ca});
+  view.toward = turned({s * ca, -c * ca, sa});
   return view;
 }
 

@@ -92,6 +92,7 @@ std::string style_of_page() {
                                 {"discOfBody", kStyle.disc_of_body},
                                 {"ball", kStyle.ball},
                                 {"ballOfBody", kStyle.ball_of_body},
+                                {"clearBall", kStyle.clear_ball},
                                 {"mark", kStyle.mark},
                                 {"spring", kStyle.spring},
                                 {"markDistance", kStyle.mark_distance},
@@ -129,9 +130,11 @@ std::string units_of_page(const Scene& scene) {
 /// The elements of the page that the scripts read: the JSON object "motion", and the blocks of
 /// motion and flow in base64. In the object, `low`, `step` and `bytes` encode positions (PageData);
 /// `roomLow`, `roomHigh`, `cell` (place and periods), `meanRadius` and `hinges` are lengths [L];
-/// `offsets` has Frame::offset of each frame, or nothing; `gradient` is the mean velocity gradient of the cell [1/T]; `lowest` is the lowest gamma [M
-/// L/T]; `topForce` is the force of the widest lines [M L/T^2]. `springs` and `arms` are pairs of
-/// particles, numbered from 0. `allForces` is true if the page has the forces of all contacts.
+/// `offsets` has Frame::offset of each frame, or nothing; `periods` has the nine numbers of
+/// Frame::periods of each frame, or nothing; `gradient` is the mean velocity gradient of the cell
+/// [1/T]; `lowest` is the lowest gamma [M L/T]; `topForce` is the force of the widest lines [M
+/// L/T^2]. `springs` and `arms` are pairs of particles, numbered from 0. `allForces` is true if the
+/// page has the forces of all contacts.
 std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& flow) {
   const auto& playback = scene.playback;
   const auto listed = [](const report::ColourScale& scale) {
@@ -153,25 +156,32 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   for (const auto f : data.frames)
     if (const auto offset = playback.frames[f].offset)
       offsets.push_back(static_cast<float>(*offset));
+  std::vector<float> periods;
+  for (const auto f : data.frames)
+    if (const auto& vectors = playback.frames[f].periods)
+      for (const auto& vector : *vectors)
+        for (const double x : vector) periods.push_back(static_cast<float>(x));
   const auto list = [&](const auto& x) {
     return fmt::format("[{}]", fmt::join(x.begin(), x.begin() + playback.dimension, ","));
   };
   auto text = fmt::format(
-      "<script type=\"application/json\" id=\"motion\">{{\"dimension\":{},\"every\":{},"
+      "<script type=\"application/json\" id=\"motion\">{{\"dimension\":{},\"up\":{},\"every\":{},"
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
       "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"gradient\":[{}],\"hasAxis\":{},"
       "\"flow\":{},"
       "\"friction\":[{}],\"hasForces\":{},\"meanRadius\":{},\"hinges\":[{}],\"springs\":[{}],"
-      "\"arms\":[{}],\"offsets\":[{}],\"topForce\":{},\"allForces\":{},\"topSpeed\":{},\"units\":{}"
+      "\"arms\":[{}],\"offsets\":[{}],\"periods\":[{}],\"topForce\":{},\"allForces\":{},"
+      "\"topSpeed\":{},\"units\":{}"
       ",\"style\":{}}}"
       "</script>\n",
-      playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
-      list(scene.box.low), list(scene.box.high), scene.lowest_gamma, report::kTouchingColour,
-      listed(films), fmt::join(playback.cell.from, ","), fmt::join(playback.cell.lengths, ","),
-      fmt::join(playback.cell.gradient, ","), scene.has_axis, flow.settings,
+      playback.dimension, playback.up, data.every_particle, data.position_bytes, list(data.low),
+      list(data.step), list(scene.box.low), list(scene.box.high), scene.lowest_gamma,
+      report::kTouchingColour, listed(films), fmt::join(playback.cell.from, ","),
+      fmt::join(playback.cell.lengths, ","), fmt::join(playback.cell.gradient, ","), scene.has_axis,
+      flow.settings,
       playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
       scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
-      fmt::join(offsets, ","), scene.top_force,
+      fmt::join(offsets, ","), fmt::join(periods, ","), scene.top_force,
       scene.top_force > 0 && data.contacts && data.every_particle == 1, data.top_speed,
       units_of_page(scene), style_of_page());
   for (const auto* blocks : {&data.blocks, &flow.blocks})

@@ -210,15 +210,20 @@ std::string flow_behind(const FlowFrames& flows, std::size_t f, const Projection
 }
 
 /// Returns width and height of the box as the reader sees it [L]. Sets `left` and `top` of the view
-/// so that the upper left corner of the box has the coordinates (0, 0) in the panel.
-std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
+/// so that the upper left corner of the box has the coordinates (0, 0) in the panel. A box in space
+/// is seen from the same distance as by nearness() of view.js.
+std::pair<double, double> show_box(Projection& view, const ViewBox& box, int dimension) {
+  if (dimension == 3) {
+    view.middle = 0.5 * (box.low + box.high);
+    view.distance = 4 * norm(box.high - box.low);
+  }
   Interval x, y;
   for (int corner = 0; corner < 8; ++corner) {
     const Vector p = {((corner & 1) != 0 ? box.high : box.low)[0],
                       ((corner & 2) != 0 ? box.high : box.low)[1],
                       ((corner & 4) != 0 ? box.high : box.low)[2]};
-    x.add(dot(view.right, p), dot(view.right, p));
-    y.add(dot(view.up, p), dot(view.up, p));
+    x.add(view.x(p), view.x(p));
+    y.add(-view.y(p), -view.y(p));
   }
   view.left = x.low;
   view.top = y.high;
@@ -291,9 +296,9 @@ std::string particles_picture(const Playback& original, const std::string& title
                               std::max(Tuning::kPointsOfFlow, shown_flows(original).points),
                               known != nullptr ? *known : FlowFrames{});
   PanelSettings panel{.scene = scene,
-                      .view = view_of(scene.playback.dimension),
+                      .view = view_of(scene.playback.dimension, scene.playback.up),
                       .every = scene.playback.radii.size() / (Tuning::kMostInPanel + 1) + 1};
-  const auto [wide, high] = show_box(panel.view, scene.box);
+  const auto [wide, high] = show_box(panel.view, scene.box, scene.playback.dimension);
   const int columns = columns_for(std::max(count, 1), wide / high);
   const int rows = (count + columns - 1) / columns;
   auto& scale = panel.view.scale;

@@ -123,10 +123,26 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
     box.low[axis] -= more;
     box.high[axis] += more;
   }
-  for (std::size_t axis = 0; axis < dimension; ++axis)
+  bool is_strained = false;
+  for (const auto f : frames) {
+    const auto& periods = playback.frames[f].periods;
+    if (!periods) continue;
+    is_strained = true;
+    // The box around the cell, whose middle does not move.
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      double half = std::ranges::max(playback.radii);
+      for (const auto& period : *periods) half += std::abs(period[axis]) / 2;
+      const double middle = playback.cell.from[axis] + playback.cell.lengths[axis] / 2;
+      box.low[axis] = std::min(box.low[axis], middle - half);
+      box.high[axis] = std::max(box.high[axis], middle + half);
+    }
+  }
+  for (std::size_t axis = 0; axis < dimension && !is_strained; ++axis)
     if (const double period = playback.cell.lengths[axis]; period > 0) {
-      box.low[axis] = playback.cell.from[axis];
-      box.high[axis] = box.low[axis] + period;
+      // In space the images at the sides of the cell are shown, too.
+      const double beyond = playback.dimension == 3 ? std::ranges::max(playback.radii) : 0;
+      box.low[axis] = playback.cell.from[axis] - beyond;
+      box.high[axis] = playback.cell.from[axis] + period + beyond;
     }
   return box;
 }

@@ -87,6 +87,7 @@ struct SceneStyle {
   /// rigid body, and in one.
   std::array<Colour, 4> ball{"#e3eef7", "#a3bfd8", "#5b7f9f", "#34536e"},
       ball_of_body{"#f6ead0", "#dcc79c", "#a98d55", "#7a6231"};
+  double clear_ball = 0.3;  ///< opacity of spheres under lines of forces, in a periodic cell
   /// Colours of the marks of rotation on particles, and of springs.
   Colour mark = "#4a4a44", spring = "#2b6e3f";
   /// For the dot that shows the angle of a disc: its distance from the centre and its radius,
@@ -129,8 +130,9 @@ struct Scene {
   }
   /// The part of space that is shown, with a margin: all particles of the shown frames (if a few
   /// have flown far away, the central 98 % of each frame) and the planes next to them; the whole
-  /// domain of a flow, if it is at most 16 times as large; along axes with a period the cell. Its
-  /// size is > 0 in each direction of the playback's dimension.
+  /// domain of a flow, if it is at most 16 times as large; along axes with a period the cell, in
+  /// space with the largest radius beside it. Its size is > 0 in each direction of the playback's
+  /// dimension.
   ViewBox box;
   FlowFrames flows;         ///< the flows in the box
   double lowest_gamma = 0;  ///< lowest gamma of all frames, <= 0 [M L/T], if is_per_length() [M/T]

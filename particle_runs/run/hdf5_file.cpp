@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -142,6 +143,8 @@ void copy_frames(const ParticlesCase& c, const fs::path& folder, Hdf5File& file)
   const auto last_text = read_file(folder / frames.back().second);
   const VtkReader last(last_text, (folder / frames.back().second).string(), "frame");
   Rows<double> times(file, "time", 1);
+  std::optional<Rows<double>> periods;
+  if (last.has_array("FieldData", "periods")) periods.emplace(file, "periods", 9);
   auto of_points = arrays_of(particle_columns(), "PointData", c.particles.dimension);
   of_points[0].insert(of_points[0].begin(), {"Points", "Points", "position", 3});
   Table particles(file, "particles/", of_points[0], of_points[1], last);
@@ -151,6 +154,7 @@ void copy_frames(const ParticlesCase& c, const fs::path& folder, Hdf5File& file)
     const auto text = read_file(folder / name);
     const VtkReader frame(text, (folder / name).string(), "frame");
     times.append({time});
+    if (periods) periods->append(frame.array<double>("FieldData", "periods"));
     particles.append(frame, frame.array<double>("PointData", "radius").size());
     contacts.append(frame, frame.array<double>("CellData", "gap").size());
   }

@@ -22,6 +22,29 @@ struct PairDistributionTuning {
   static constexpr std::size_t kMostFrames = 100, kMostSpheres = 2000000;
 };
 
+/// The rate at which a flow stretches a line along `x`, x E x, without its magnitude. At rest it is
+/// that of a shear along x.
+double stretching(const std::array<Vector, 3>& gradient, const Vector& x) {
+  if (gradient == std::array<Vector, 3>{}) return x[0] * x[1];
+  return x[0] * dot(gradient[0], x) + x[1] * dot(gradient[1], x) + x[2] * dot(gradient[2], x);
+}
+
+/// The part of all directions along which a flow compresses.
+double compressed_part(const std::array<Vector, 3>& g) {
+  const bool is_plane =
+      g[0][2] == 0 && g[1][2] == 0 && g[2][0] == 0 && g[2][1] == 0 && g[2][2] == 0;
+  if (is_plane) return 0.5;
+  // Directions that cover the sphere evenly, each turned by a golden section from the one before.
+  constexpr int kDirections = 100000;
+  int count = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    const double z = (2 * k + 1.0) / kDirections - 1, r = std::sqrt(1 - z * z);
+    const double angle = 2 * std::numbers::pi * std::numbers::phi * k;
+    if (stretching(g, {r * std::cos(angle), r * std::sin(angle), z}) < 0) ++count;
+  }
+  return static_cast<double>(count) / kDirections;
+}
+
 /// The sum over all pairs i < j of (r_i + r_j)^3.
 double sum_of_cubes(const std::vector<double>& radii) {
   double n = 0, r1 = 0, r2 = 0, r3 = 0;
@@ -50,6 +73,16 @@ std::vector<std::size_t> counted_frames(const ParticlesCase& c, const Playback& 
   return some;
 }
 
+/// The gradient, times a number > 0, in the step that ended at `time`.
+Gradient gradient_before(const PairLubrication& pairs, double time) {
+  constexpr double kBefore = 1 - 1e-9;  // far above rounding errors of times
+  const auto flow = pairs.flow_at(kBefore * time);
+  const double factor = flow.stress.value_or(1) * pairs.factor(kBefore * time, kBefore * time);
+  auto gradient = flow.gradient;
+  for (auto& row : gradient) row = (factor < 0 ? -1.0 : 1.0) * row;
+  return gradient;
+}
+
 /// The centres of the spheres, followed by those of their images near the cell.
 struct Places {
   std::vector<double> positions;       // [L]
@@ -70,11 +103,7 @@ Places places_of(const Playback& playback, const Frame& frame, double reach) {
     const Vector shift = shift_of(cell, image);
     for (std::size_t k = 0; k < playback.radii.size(); ++k) {
       const Vector x = position(playback, frame, k) + shift;
-      bool is_near = true;
-      for (std::size_t d = 0; d < 3; ++d)
-        is_near =
-            is_near && x[d] > cell.from[d] - reach && x[d] < cell.from[d] + cell.lengths[d] + reach;
-      if (is_near) add(k, x);
+      if (is_near_cell(cell, x, reach)) add(k, x);
     }
   }
   return places;
@@ -85,28 +114,34 @@ Places places_of(const Playback& playback, const Frame& frame, double reach) {
 std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
                                                    const Playback& playback) {
   const double volume = measure(c.setting.domain);
+  // Between walls spheres without order have another number of neighbours.
+  if (std::ranges::min(periods_of(c.setting.domain)) == 0) return {};
   const std::vector<double> radii(playback.radii.begin(), playback.radii.end());
   if (!(volume > 0) || radii.size() < 2 || playback.frames.empty()) return {};
   const double largest = std::ranges::max(radii);
   double range = PairDistributionTuning::kMostRange;
   // Each pair must have one image in the range, and single precision leaves a margin.
-  for (const double period : periods_of(c.setting.domain))
+  const auto frames = counted_frames(c, playback);
+  const auto limit_by = [&](double period) {
     range = std::min(range, (1 - 1e-5) * period / (2 * largest) - 2);
+  };
+  for (const double period : periods_of(c.setting.domain)) limit_by(period);
+  for (const auto f : frames)
+    if (const auto& periods = playback.frames[f].periods)
+      for (const double per_height : one_over_heights(*periods)) limit_by(1 / per_height);
   const auto bins = static_cast<std::size_t>(range / 2 * PairDistributionTuning::kBins);
   if (bins == 0) return {};
 
-  const double sign =
-      c.setting.lubrication->gradient[0][1] < 0 || c.setting.lubrication->stress.value_or(0) < 0
-          ? -1
-          : 1;
   std::vector<PairDistributionRow> rows(bins);
-  const auto frames = counted_frames(c, playback);
   std::vector<double> extents;
   for (const double radius : radii) extents.push_back((1 + range / 2) * radius);
   const double reach = 2 * std::ranges::max(extents);
+  double compressed = 0;  // part of the directions
   ThreadPool pool(1);
   for (const auto f : frames) {
     const auto& frame = playback.frames[f];
+    const auto gradient = gradient_before(*c.setting.lubrication, frame.time);
+    compressed += compressed_part(gradient) / static_cast<double>(frames.size());
     const auto places = places_of(playback, frame, reach);
     std::vector<double> extents_of_places;
     for (const auto k : places.particles) extents_of_places.push_back(extents[k]);
@@ -121,7 +156,7 @@ std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
       const auto bin = static_cast<std::size_t>(beyond * PairDistributionTuning::kBins);
       if (bin >= bins) continue;
       rows[bin].all += 1;
-      const bool is_compressed = sign * apart[0] * apart[1] < 0;
+      const bool is_compressed = stretching(gradient, apart) < 0;
       (is_compressed ? rows[bin].compression : rows[bin].extension) += 1;
     }
   }
@@ -135,8 +170,8 @@ std::vector<PairDistributionRow> pair_distribution(const ParticlesCase& c,
     auto& row = rows[bin];
     row.distance = 1 + static_cast<double>(2 * bin + 1) / (2 * kBins);
     row.all /= expected;
-    row.compression /= expected / 2;
-    row.extension /= expected / 2;
+    row.compression /= compressed * expected;
+    row.extension /= (1 - compressed) * expected;
   }
   return rows;
 }

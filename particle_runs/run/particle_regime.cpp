@@ -30,8 +30,9 @@ Vector relative_velocity(const ParticlesCase& c, const State& state, std::size_t
   const Vector v = particles.velocity(k);
   if (const auto& pairs = c.setting.lubrication) {
     const Vector x = particles.position(k);
+    const auto gradient = pairs->flow_at(state.time - state.earlier_step / 2).gradient;
     Vector flow{};
-    for (std::size_t i = 0; i < 3; ++i) flow[i] = state.shear.rate * dot(pairs->gradient[i], x);
+    for (std::size_t i = 0; i < 3; ++i) flow[i] = state.shear.rate * dot(gradient[i], x);
     return v - flow;
   }
   if (!c.setting.fluid || particles.dimension != 2) return v;

@@ -276,8 +276,9 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
                     "belongs to the run in the output folder, whose frames and record would be "
                     "lost; choose another folder, or give no restart file: the same command "
                     "continues an interrupted run in its own folder");
-  for (const auto& input : {c.path, c.particles_file}) {
-    if (input.empty()) continue;
+  auto inputs = files_of(c);
+  inputs.push_back(c.path);
+  for (const auto& input : inputs) {
     for (const std::string output : kParticleResults)
       if (fs::equivalent(input, folder / output, none))
         throw_bad_input({input.string()},

@@ -83,23 +83,31 @@ Playback without_frames(const ParticlesCase& c) {
   return playback;
 }
 
-/// Sets Frame::offset of all frames of a case with a shear across y in a periodic box. `rheology` has
-/// the strains at the times of the steps, of which a given stress needs those of the frames.
-void set_offsets(const ParticlesCase& c, const std::vector<Rheology>& rheology,
-                 Playback& playback) {
-  const auto& pairs = *c.setting.lubrication;
+/// Whether there is a flow, in the plane of x and y.
+bool flows_in_xy(const PairLubrication& pairs) {
+  const auto& g = pairs.gradient;
+  double beside = std::abs(g[2][2]), within = 0;
+  for (std::size_t d = 0; d < 2; ++d) {
+    beside += std::abs(g[d][2]) + std::abs(g[2][d]);
+    within += std::abs(g[d][0]) + std::abs(g[d][1]);
+  }
+  return beside == 0 && (within > 0 || pairs.stress || pairs.wave || !pairs.pieces.empty());
+}
+
+/// Shows a flow in the plane of x and y with y upwards. Frames of a box that is sheared across y
+/// get Frame::offset in place of Frame::periods.
+void set_view_of_flow(const ParticlesCase& c, Playback& playback) {
+  if (flows_in_xy(*c.setting.lubrication)) playback.up = 1;
   const auto& lengths = playback.cell.lengths;
-  if (!(lengths[1] > 0)) return;
   for (auto& frame : playback.frames) {
-    double strain = pairs.gradient[0][1] * frame.time;
-    if (pairs.stress) {
-      const auto step =
-          std::ranges::lower_bound(rheology, frame.time * (1 - 1e-12), {}, &Rheology::time);
-      strain = step == rheology.end() || frame.time == 0 ? 0 : step->strain;
-      if (*pairs.stress < 0) strain = -strain;
-    }
-    const double offset = pairs.offset + strain * lengths[1];
-    frame.offset = offset - lengths[0] * std::round(offset / lengths[0]);
+    if (!frame.periods) continue;
+    auto unsheared = *frame.periods;
+    const double offset = std::exchange(unsheared[1][0], 0);
+    if (unsheared !=
+        std::array{Vector{lengths[0], 0, 0}, Vector{0, lengths[1], 0}, Vector{0, 0, lengths[2]}})
+      continue;
+    frame.offset = offset;
+    frame.periods.reset();
   }
 }
 
@@ -125,6 +133,7 @@ Frame read_frame(double time, const fs::path& path, const ParticlesCase& c,
   if (origin != Vector{})
     for (auto& plane : frame.planes) plane.point = plane.point - origin;
   frame.contacts = std::move(content.contacts);
+  frame.periods = content.periods;
   return frame;
 }
 
@@ -212,14 +221,14 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
 SuspensionCurves read_curves(const ParticlesCase& c, const fs::path& folder, Playback& playback) {
   SuspensionCurves curves;
   curves.rheology = read_rheology(folder / kRheologyFile);
-  set_offsets(c, curves.rheology, playback);
+  set_view_of_flow(c, playback);
   curves.pairs = pair_distribution(c, playback);
   const auto beside = compared_folder(folder);
   if (!c.compares || !fs::is_regular_file(beside / kRheologyFile)) return curves;
   const auto compared = compared_case(c);
   auto other = read_playback(compared, beside);
   curves.compared = read_rheology(beside / kRheologyFile);
-  set_offsets(compared, curves.compared, other);
+  set_view_of_flow(compared, other);
   curves.compared_pairs = pair_distribution(compared, other);
   return curves;
 }

@@ -163,8 +163,8 @@ class Run {
     if (flow) log_.add_flow(*flow);
   }
 
-  /// Computes the velocities at the start of spheres with lubrication, which the first frame has; if
-  /// no step follows, also their rheology.
+  /// Computes the velocities at the start of spheres with lubrication, which the first frame has;
+  /// if no step follows, also their rheology.
   void compute_start() {
     // After a step the velocities are those of the step, with which the next one begins.
     if (suspension_ == nullptr || simulation_.state().steps > 0) return;
@@ -307,7 +307,8 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
       static_cast<double>(record.iterations) /
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string());
-  if (const auto viscosity = record.rheology.mean(0)) {
+  const bool has_volume = !std::holds_alternative<std::monostate>(c.setting.domain);
+  if (const auto viscosity = record.rheology.mean(0); viscosity && has_volume) {
     const auto error = record.rheology.standard_error(0);
     terminal::say("particles: the mean viscosity is {:.6g}{} times that of the fluid", *viscosity,
                   error ? fmt::format(" (standard error {:.2g})", *error) : "");
@@ -438,7 +439,7 @@ std::exception_ptr run_compared(const ParticlesRequest& request, const Particles
 /// compared_case().
 void run_case(const ParticlesRequest& request, const ParticlesCase& c) {
   std::vector<fs::path> inputs = {c.path};
-  if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
+  for (const auto& file : files_of(c)) inputs.push_back(file);
   if (!request.restart.empty()) inputs.emplace_back(request.restart);
   const results::Provenance provenance = results::provenance_of({inputs, {}});
   const fs::path folder = request.folder;

@@ -6,7 +6,7 @@
 
 #include "viscontact/particle_runs/case/particles_case.hpp"
 #include "viscontact/particle_runs/run/pair_distribution.hpp"
-#include "viscontact/suspensions/rheology.hpp"
+#include "viscontact/suspensions/values/rheology.hpp"
 
 namespace viscontact::particles {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/suspensions/rheology.hpp"
+#include "viscontact/suspensions/values/rheology.hpp"
 
 namespace viscontact::particles {
 

@@ -12,14 +12,13 @@ namespace viscontact::particles {
 
 class SuspensionSimulation;
 
-/// A SuspensionSimulation if the setting has lubrication, a MembraneSimulation if it has a fluid with
-/// membranes, a FluidSimulation if it has another fluid, else a Simulation. `threads` >= 1 is used
-/// without a fluid only. With a fluid,
-/// `start_solver` starts the fluid solver, which ends if `stop` requests a stop; without one no
-/// solver is started, because FreeFEM may not be installed. Throws Error(kBadInput) if `state` does
-/// not fit the setting. The errors of the fluid solver, here and in the simulation, are
-/// Error(kExternalProgram) if it cannot start, ends or answers with anything but numbers, and
-/// Error(kInterrupted) if a stop was requested.
+/// A SuspensionSimulation if the setting has lubrication, a MembraneSimulation if it has a fluid
+/// with membranes, a FluidSimulation if it has another fluid, else a Simulation. `threads` >= 1 is
+/// used without a fluid only. With a fluid, `start_solver` starts the fluid solver, which ends if
+/// `stop` requests a stop; without one no solver is started, because FreeFEM may not be installed.
+/// Throws Error(kBadInput) if `state` does not fit the setting. The errors of the fluid solver,
+/// here and in the simulation, are Error(kExternalProgram) if it cannot start, ends or answers with
+/// anything but numbers, and Error(kInterrupted) if a stop was requested.
 std::unique_ptr<ParticleSimulation> start_simulation(const Setting& setting, State state,
                                                      int threads,
                                                      const StartFluidSolver& start_solver,

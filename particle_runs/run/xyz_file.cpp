@@ -40,7 +40,8 @@ struct Cell {
 /// The cell of the case at `time`; nothing without a domain. Its edge along an axis without a
 /// period is that of the domain, or of the box around it. OVITO shows no cell of volume 0, so that
 /// a case in the plane has a cell as thick as the largest disc.
-std::optional<Cell> cell_at(const ParticlesCase& c, double time, double largest_radius) {
+std::optional<Cell> cell_at(const ParticlesCase& c, const VtkReader& frame, double time,
+                            double largest_radius) {
   assert(largest_radius > 0);
   Cell cell;
   Vector to{};
@@ -60,6 +61,20 @@ std::optional<Cell> cell_at(const ParticlesCase& c, double time, double largest_
   if (c.particles.dimension == 2) {
     cell.corner[2] = -largest_radius;
     to[2] = largest_radius;
+  }
+  if (frame.has_array("FieldData", "periods")) {
+    const auto numbers = frame.array<double>("FieldData", "periods");
+    if (numbers.size() != 9) frame.refuse();
+    Vector corner = 0.5 * (cell.corner + to);
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto& edge = cell.edges[k];
+      edge = {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
+      cell.periodic[k] = norm(edge) > 0;
+      if (!cell.periodic[k]) edge[k] = to[k] - cell.corner[k];
+      corner = corner - 0.5 * edge;
+    }
+    cell.corner = corner;
+    return cell;
   }
   PeriodicCell periods = cell_of(c.setting);
   periods.moved_for = time;
@@ -111,7 +126,7 @@ class XyzText {
     const auto orientations = orientations_of(frame, radii.size());
     const auto omegas = angular_velocities_of(frame, radii.size());
     const auto sums = sums_of_contacts(frame, radii.size());
-    std::string text = fmt::format("{}\n{}\n", radii.size(), header(time, radii));
+    std::string text = fmt::format("{}\n{}\n", radii.size(), header(frame, time, radii));
     for (std::size_t k = 0; k < radii.size(); ++k) {
       text += 'X';
       const auto put = [&](const std::vector<double>& list, std::size_t count) {
@@ -132,11 +147,11 @@ class XyzText {
  private:
   static constexpr std::size_t kSums = 3;
 
-  std::string header(double time, const std::vector<double>& radii) const {
+  std::string header(const VtkReader& frame, double time, const std::vector<double>& radii) const {
     const double largest = radii.empty() ? 0 : std::ranges::max(radii);
     std::string text;
     std::array<bool, 3> periodic{};
-    if (const auto cell = cell_at(case_, time, largest > 0 ? largest : 1)) {
+    if (const auto cell = cell_at(case_, frame, time, largest > 0 ? largest : 1)) {
       periodic = cell->periodic;
       text =
           fmt::format("Lattice=\"{} {} {}\" Origin=\"{}\" ", in_words(cell->edges[0]),

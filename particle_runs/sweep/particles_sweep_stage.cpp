@@ -49,7 +49,7 @@ void show_finished_rows(terminal::ProgressTimer& timer, std::uint64_t done, std:
 
 results::Inputs inputs_of(const ParticlesSweep& sweep) {
   results::Inputs inputs{{sweep.case_path()}, {}};
-  if (!sweep.particles_file().empty()) inputs.given.push_back(sweep.particles_file());
+  for (const auto& file : sweep.files()) inputs.given.push_back(file);
   return inputs;
 }
 

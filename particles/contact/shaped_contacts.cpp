@@ -19,9 +19,10 @@ struct ShapedContactTuning {
   /// the energy that steps with friction added (1.1 and 0.98 became 0.67 and 0.44 of 1e3) and
   /// divided 69 of 21600 steps; a limit of 0.03 divided a quarter of them.
   static constexpr double kLargestTurn = 0.1;
-  /// The same by which turns move a contact along the surface, over the size of the particle. A thin
-  /// ellipse that lies flat turns by less before its normal force has another arm: without this
-  /// limit a single step added up to six times the energy of an ellipse of the ratio 50 that falls.
+  /// The same by which turns move a contact along the surface, over the size of the particle. A
+  /// thin ellipse that lies flat turns by less before its normal force has another arm: without
+  /// this limit a single step added up to six times the energy of an ellipse of the ratio 50 that
+  /// falls.
   static constexpr double kLargestShift = 0.1;
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/values/vector.hpp"
@@ -26,11 +27,17 @@ struct PeriodicCell {
   std::array<double, 4> gradient{};
   /// Time since the start [T], >= 0. At the start all shifts were whole periods along the axes.
   double moved_for = 0;
+  /// Displacement along x of the image across the period y [L] (suspensions); then the two members
+  /// above have no meaning.
+  std::optional<double> offset{};
+  /// The present period vectors [L], right-handed, of a cell around the middle of `from` and
+  /// `lengths` that a flow strains (suspensions); then the three members above have no meaning.
+  std::optional<std::array<Vector, 3>> vectors{};
 
   bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0 || lengths[2] > 0; }
   /// True if images move relative to their particles.
   bool is_sheared() const {
-    return gradient[0] * lengths[0] != 0 || gradient[2] * lengths[0] != 0 ||
+    return vectors || offset || gradient[0] * lengths[0] != 0 || gradient[2] * lengths[0] != 0 ||
            gradient[1] * lengths[1] != 0 || gradient[3] * lengths[1] != 0;
   }
   bool operator==(const PeriodicCell&) const = default;
@@ -76,14 +83,18 @@ inline Vector shift_at_start(const PeriodicCell& cell, const Periods& periods) {
   return {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], periods[2] * cell.lengths[2]};
 }
 
-/// Velocity [L/T] of an image relative to its particle. Where a contact, a rigid body or a link
-/// joins an image in place of the particle, this velocity is added to that of the particle.
+/// Velocity [L/T] of an image relative to its particle; 0 with PeriodicCell::offset and
+/// PeriodicCell::vectors. Where a contact, a rigid body or a link joins an image in place of the
+/// particle, this velocity is added to that of the particle.
 inline Vector velocity_of_image(const PeriodicCell& cell, const Periods& periods) {
   return velocity_at(cell, shift_at_start(cell, periods));
 }
 
 /// The shift [L] of an image at the time PeriodicCell::moved_for.
 inline Vector shift_of(const PeriodicCell& cell, const Periods& periods) {
+  if (const auto& v = cell.vectors)
+    return periods[0] * (*v)[0] + periods[1] * (*v)[1] + periods[2] * (*v)[2];
+  if (cell.offset) return shift_at_start(cell, periods) + Vector{periods[1] * *cell.offset, 0, 0};
   return shift_at_start(cell, periods) + cell.moved_for * velocity_of_image(cell, periods);
 }
 
@@ -102,6 +113,8 @@ inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
 /// shift of each image at the start by the matrix I + moved_for gradient. The result is infinite or
 /// NaN if this matrix is singular.
 inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
+  if (cell.offset)
+    return {apart[0] - *cell.offset * (apart[1] / cell.lengths[1]), apart[1], apart[2]};
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
   const double determinant = (1 + t * g[0]) * (1 + t * g[3]) - t * t * g[1] * g[2];
@@ -109,10 +122,46 @@ inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
           ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant, apart[2]};
 }
 
+/// The numbers c with x = sum of c_k vectors[k].
+inline Vector fractions_of(const std::array<Vector, 3>& vectors, const Vector& x) {
+  const auto& [a, b, c] = vectors;
+  const double volume = dot(cross(a, b), c);
+  return {dot(cross(b, c), x) / volume, dot(cross(c, a), x) / volume, dot(cross(a, b), x) / volume};
+}
+
+/// One over the distances [L] of the opposite faces of a cell.
+inline Vector one_over_heights(const std::array<Vector, 3>& vectors) {
+  const auto& [a, b, c] = vectors;
+  const double volume = dot(cross(a, b), c);
+  return {norm(cross(b, c)) / volume, norm(cross(c, a)) / volume, norm(cross(a, b)) / volume};
+}
+
+/// Whether a point [L] is in the cell, or beside it by less than `reach` [L]. Along an axis without
+/// a period all points are.
+inline bool is_near_cell(const PeriodicCell& cell, const Vector& x, double reach) {
+  if (cell.vectors) {
+    const Vector at = fractions_of(*cell.vectors, x - (cell.from + 0.5 * cell.lengths));
+    const Vector margin = reach * one_over_heights(*cell.vectors);
+    for (std::size_t d = 0; d < 3; ++d)
+      if (!(std::abs(at[d]) < 0.5 + margin[d])) return false;
+    return true;
+  }
+  for (std::size_t d = 0; d < 3; ++d)
+    if (cell.lengths[d] > 0 &&
+        !(x[d] > cell.from[d] - reach && x[d] < cell.from[d] + cell.lengths[d] + reach))
+      return false;
+  return true;
+}
+
 /// The whole numbers of periods whose shift is nearest to the vector `apart` [L] from one particle
 /// to another; in a sheared cell that which would be nearest before the motion of the cell,
 /// before_the_motion().
 inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
+  if (cell.vectors) {
+    auto counts = fractions_of(*cell.vectors, apart);
+    for (auto& count : counts) count = std::round(count);
+    return counts;
+  }
   const auto at_start = before_the_motion(cell, apart);
   Periods periods{};
   for (std::size_t d = 0; d < 3; ++d)

@@ -72,6 +72,13 @@ struct ShearProgress {
   double strain = 0;  ///< integral of the shear rate since the start [1]
   double rate = 0;  ///< factor on the gradient of the setting in the last step [1]; 0 at the start
   double offset = 0;  ///< displacement of images across y along x [L], within half a period
+  /// The integral of signed_rate_of_strain() [1], of which the period vectors are those of an
+  /// extension (suspensions/cell/strained_lattice.hpp).
+  double net_strain = 0;
+  /// The present period vectors [L] of a cell whose flow is no shear along x that changes along y;
+  /// otherwise 0.
+  std::array<Vector, 3> periods{};
+  bool has_periods() const { return periods != std::array<Vector, 3>{}; }
   bool operator==(const ShearProgress&) const = default;
 };
 

@@ -65,6 +65,20 @@ double gap_of(const Particles& p, const ClosePair& pair) {
 /// with the square of the number of particles.
 std::vector<ClosePair> overlapping_circles(const Particles& p) {
   std::vector<ClosePair> pairs;
+  if (p.cell.vectors) {
+    // Spheres that overlap are nearer than half of each height of the cell.
+    for (std::int32_t j = 0; index_of(j) < p.count(); ++j)
+      for (std::int32_t i = 0; i < j; ++i) {
+        const Vector apart = p.position(index_of(j)) - p.position(index_of(i));
+        const auto periods = periods_towards(p.cell, apart);
+        if (norm(apart - shift_of(p.cell, periods)) < p.radii[index_of(i)] + p.radii[index_of(j)])
+          pairs.push_back(
+              {i, j,
+               image_number(-static_cast<int>(periods[0]), -static_cast<int>(periods[1]),
+                            -static_cast<int>(periods[2]))});
+      }
+    return pairs;
+  }
   for (std::int32_t j = 0; index_of(j) < p.count(); ++j)
     for (std::int32_t i = 0; i < j; ++i)
       for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {

@@ -37,6 +37,12 @@ std::vector<double> jump_times(const Setting& setting) {
     for (const auto& plane : setting.planes) add(plane.velocity);
     for (const auto& [particle, motion] : setting.given_motions) add(motion.velocity);
   }
+  if (const auto& flow = setting.lubrication)
+    for (std::size_t k = 0; k + 1 < flow->pieces.size(); ++k) {
+      const auto &piece = flow->pieces[k], &next = flow->pieces[k + 1];
+      if (piece.gradient != next.gradient || piece.stress != next.stress)
+        times.push_back(piece.until);
+    }
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -59,7 +65,7 @@ double leapfrog_step_end(double time, double grid_end, double h, std::span<const
 
 std::optional<StepInterval> StepGrid::next(const State& state, double end) const {
   assert(time_step_ > 0);
-  const double tiny = StepEndTuning::kTiny * time_step_;
+  const double tiny = StepGrid::tiny(time_step_);
   if (!(end > state.time + tiny)) return std::nullopt;
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps + 1 - state.grid_step) * time_step_;
@@ -83,6 +89,8 @@ std::optional<StepInterval> StepGrid::next(const State& state, double end) const
   if (is_cut || std::abs(step.end - state.time - time_step_) > tiny) step.h = step.end - state.time;
   return step;
 }
+
+double StepGrid::tiny(double h) { return StepEndTuning::kTiny * h; }
 
 void StepGrid::count(State& state, const StepInterval& step) {
   ++state.steps;

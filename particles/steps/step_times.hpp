@@ -15,7 +15,8 @@ namespace viscontact::particles {
 /// The times > 0 at which a step must end (Euler scheme) or have its middle (leapfrog scheme) [T],
 /// increasing. With the leapfrog scheme a force or torque jumps at these times. With the Euler
 /// scheme and a restitution the velocity of a plane or of a driven particle jumps, because the
-/// computation of rebounds assumes that it moves evenly in a step. Otherwise the list is empty.
+/// computation of rebounds assumes that it moves evenly in a step. With PairLubrication the flow or
+/// the given stress jumps, because a step has one of them. Otherwise the list is empty.
 std::vector<double> jump_times(const Setting& setting);
 
 /// The end of the step that begins at `time` with the leapfrog scheme [T]. If no jump is near, this
@@ -51,6 +52,11 @@ class StepGrid {
   /// The step that begins at `state`, with the rules of Simulation::step(); std::nullopt if too
   /// little time is left until `end` [T].
   std::optional<StepInterval> next(const State& state, double end) const;
+
+  /// Times that differ less [T] are the same, with steps of the length h.
+  static double tiny(double h);
+  /// A function whose pieces are at least so long [T] has a step within each piece.
+  static double least_piece(double h) { return 2 * tiny(h); }
 
   /// Counts `step` in `state`, and replaces the grid if the step did not end on it.
   static void count(State& state, const StepInterval& step);

@@ -70,7 +70,6 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           Found("particle_runs/case/membrane_checks.cpp", "viscous_contact"),
           Found("particle_runs/case/membrane_checks.cpp", "plane"),
           Found("particle_runs/case/fluid_start_checks.cpp", "viscous_contact"),
-          Found("particle_runs/case/lubrication_section.cpp", "plane"),
           // obstacles in words
           Found("particle_runs/case/start_checks.cpp", "plane"),
           Found("particle_runs/case/fluid_start_checks.cpp", "plane"),
@@ -89,6 +88,8 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           // bases of pairs, two of which are named bases
           Found("motions/pair_fit.cpp", "asymptotic"),
           Found("motions/pair_fit.cpp", "asymptotic_extended"),
+          // the geometry of a fit, which says what the neighbour is
+          Found("motions/fitted_pairs.cpp", "plane"),
           // a shape of particles
           Found("particles/shapes/disc.cpp", "sphere"),
           // words for the geometry in the head of a table

@@ -369,6 +369,29 @@ class Suspensions(unittest.TestCase):
         self.assertAlmostEqual(sphere.velocities[0, 2], 1, delta=1e-9)
         self.assertEqual(sphere.time, 0)
 
+    def test_inertia_planes_and_a_flow_in_pieces(self):
+        case = {"space": {"dimension": 3},
+                "lubrication": {"viscosity": 3.0, "inertia": True,
+                                "velocity": {"shear_rate": [{"until": 0.5, "value": 2.0},
+                                                            {"until": 1.0, "value": -1.0}]}},
+                "plane": [{"point": [0.0, 0.0, 0.0], "normal": [0.0, 1.0, 0.0]}],
+                "viscous_contact": {"time_step": 0.1, "end_time": 1.0}}
+        spheres = viscontact.Particles(case, {
+            "x": [0.0, 9.0], "y": [3.0, 3.0], "z": [0.0, 0.0], "radius": [1.0, 1.0],
+            "mass": [2.0, 2.0]})
+        # They begin with the flow.
+        np.testing.assert_array_equal(spheres.velocities, [[6, 0, 0], [6, 0, 0]])
+        np.testing.assert_array_equal(spheres.angular_velocities, [[0, 0, -1], [0, 0, -1]])
+        spheres.run(0.5)
+        self.assertAlmostEqual(spheres.rheology.shear_rate, 2, delta=1e-12)
+        spheres.run()
+        self.assertAlmostEqual(spheres.rheology.net_strain, 0.5, delta=1e-12)
+        self.assertAlmostEqual(spheres.rheology.strain, 1.5, delta=1e-12)
+        # Drag makes both go back with the flow within the time 2/(18 pi).
+        self.assertTrue(np.all(spheres.velocities[:, 0] < 0))
+        with self.assertRaisesRegex(viscontact.InputError, "mass"):
+            viscontact.Particles(case, {"x": [0.0], "y": [3.0], "z": [0.0], "radius": [1.0]})
+
     def test_other_particles_have_no_rheology(self):
         with self.assertRaises(viscontact.InputError):
             viscontact.Particles(RAFT).rheology

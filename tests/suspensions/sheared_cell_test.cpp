@@ -1,4 +1,4 @@
-#include "viscontact/suspensions/sheared_cell.hpp"
+#include "viscontact/suspensions/cell/sheared_cell.hpp"
 
 #include <gtest/gtest.h>
 

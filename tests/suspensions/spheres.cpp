@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "viscontact/suspensions/sheared_cell.hpp"
+#include "viscontact/suspensions/cell/sheared_cell.hpp"
 
 namespace viscontact::particles {
 

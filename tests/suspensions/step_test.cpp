@@ -6,7 +6,7 @@
 
 #include "tests/suspensions/spheres.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/suspensions/sheared_cell.hpp"
+#include "viscontact/suspensions/cell/sheared_cell.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -86,8 +86,9 @@ TEST(SuspensionStep, LeavesNoOverlapAndBalancesThePower) {
   }
 }
 
-TEST(SuspensionStep, OfSpheresThatJamEndsTheRun) {
-  // A close-packed lattice cannot be sheared without growing.
+// Spheres in a close-packed lattice, which cannot be sheared without growing, in a cell of
+// `period`.
+State close_packed(double& period) {
   const double lattice = 2.002 * std::sqrt(2);
   std::vector<Vector> places;
   for (int cell = 0; cell < 8; ++cell) {
@@ -95,17 +96,31 @@ TEST(SuspensionStep, OfSpheresThatJamEndsTheRun) {
     for (const Vector& x : {Vector{0, 0, 0}, Vector{0, 1, 1}, Vector{1, 0, 1}, Vector{1, 1, 0}})
       places.push_back(from + (lattice / 2) * x);
   }
-  const std::vector<double> radii(places.size(), 1);
-  auto setting = sheared_cube(2 * lattice, 0);
-  setting.lubrication->range = 0.2;
-  setting.time_step = 0.02;
-  SuspensionSimulation simulation(setting, spheres_at(places, radii), 1);
-  const auto shear = [&] {
-    while (simulation.step(1).parts > 0) EXPECT_GT(least_gap(simulation), -1e-7);
-  };
-  EXPECT_THROW(shear(), Error);
-  EXPECT_GT(simulation.state().time, 0);
-  EXPECT_GT(simulation.rheology().viscosity, 100);
+  period = 2 * lattice;
+  return spheres_at(places, std::vector<double>(places.size(), 1));
+}
+
+TEST(SuspensionStep, OfSpheresThatJamEndsTheRun) {
+  for (const double friction : {0.0, 1.0}) {
+    SCOPED_TRACE(friction);
+    double period = 0;
+    const State start = close_packed(period);
+    auto setting = sheared_cube(period, 0);
+    setting.lubrication->range = 0.2;
+    setting.time_step = 0.02;
+    if (friction > 0) setting.laws.friction = FrictionLaw{friction};
+    SuspensionSimulation simulation(setting, start, 1);
+    int steps = 0;
+    const auto shear = [&] {
+      for (; simulation.step(1).parts > 0; ++steps) EXPECT_GT(least_gap(simulation), -1e-7);
+    };
+    EXPECT_THROW(shear(), Error);
+    // What was reached is kept.
+    EXPECT_GT(simulation.state().time, 0);
+    EXPECT_EQ(simulation.state().steps, static_cast<std::size_t>(steps));
+    EXPECT_NEAR(simulation.state().shear.strain, simulation.state().time, 1e-12);
+    EXPECT_GT(simulation.rheology().viscosity, 100);
+  }
 }
 
 TEST(SuspensionStep, RepelsAndCountsPairsWithinTheRangeAlone) {
@@ -186,6 +201,35 @@ TEST(SuspensionStep, LeavesNoOverlapHoweverLongItIs) {
   }
 }
 
+TEST(SuspensionStep, HasTheSameBitsForAnyNumberOfThreads) {
+  // More spheres than a block of a loop has, on a lattice that random displacements disturb.
+  constexpr int kSide = 11;
+  constexpr double kSpacing = 2.5;
+  Random random(3);
+  std::vector<Vector> places;
+  for (int k = 0; k < kSide * kSide * kSide; ++k) {
+    const Vector site{k % kSide + 0.5, k / kSide % kSide + 0.5, k / (kSide * kSide) + 0.5};
+    places.push_back(kSpacing * site + Vector{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2),
+                                              random.uniform(-0.2, 0.2)});
+  }
+  const auto spheres = spheres_at(places, std::vector<double>(places.size(), 1));
+  for (const auto& kind :
+       {Kind{PairTerms::kNearContact, 1e-3, 0, 0.3}, Kind{PairTerms::kTables, 0, 1e-3, 0}}) {
+    SCOPED_TRACE(kind.roughness);
+    auto setting = setting_of(kind);
+    setting.domain = sheared_cube(kSide * kSpacing, 0).domain;
+    std::vector<double> places_of_one;
+    for (const int threads : {1, 2, 3}) {
+      SuspensionSimulation simulation(setting, spheres, threads);
+      for (int n = 0; n < 3; ++n) simulation.step(10);
+      const auto& p = simulation.state().particles;
+      if (threads == 1) places_of_one = p.positions;
+      EXPECT_EQ(p.positions, places_of_one);
+    }
+    EXPECT_NE(places_of_one, spheres.particles.positions);
+  }
+}
+
 TEST(SuspensionStep, IsContinuedFromAStateBitForBit) {
   for (const auto& kind : kKinds) {
     SCOPED_TRACE(&kind - kKinds.data());
@@ -243,44 +287,6 @@ TEST(SuspensionStep, IsOfTheFirstOrder) {
   EXPECT_NEAR(changed / norm(end_of(0.0025) - end_of(0.00125)), 2, 0.15);
 }
 
-TEST(SuspensionStep, FindsTheRateOfAGivenStress) {
-  auto setting = setting_of({PairTerms::kNearContact, 1e-3, 0, 0});
-  setting.lubrication->stress = 7;
-  setting.lubrication->repulsion = Repulsion{1, 0.02};
-  SuspensionSimulation simulation(setting, start(), 1);
-  for (int n = 0; n < 10; ++n) {
-    EXPECT_TRUE(simulation.step(10).converged);
-    const auto& rheology = simulation.rheology();
-    EXPECT_NEAR(rheology.viscosity * rheology.shear_rate, 7, 1e-6);
-    EXPECT_NEAR(rheology.shear_rate, simulation.state().shear.rate, 1e-12);
-  }
-  EXPECT_GT(simulation.state().shear.rate, 1);
-}
-
-TEST(SuspensionStep, OfAShearFlowThatReversesAndStops) {
-  auto setting = setting_of({PairTerms::kNearContact, 1e-3, 1e-3, 0});
-  setting.lubrication->rate_factor = {{{1, {1, 0, 0}}, {1.2, {-2, 0, 0}}, {1.3, {0, 0, 0}}}};
-  SuspensionSimulation simulation(setting, start(), 1);
-  const auto run_until = [&](double end) {
-    while (simulation.step(end).parts > 0) EXPECT_GT(least_gap(simulation), 1e-3 - 1e-7);
-  };
-  run_until(1);
-  EXPECT_NEAR(simulation.state().shear.strain, 1, 1e-12);
-  EXPECT_NEAR(simulation.state().shear.offset, 1, 1e-11);
-  const double before = simulation.rheology().viscosity_contact;
-  simulation.step(1.02);
-  // Contacts that pushed open at once.
-  EXPECT_GT(before, 0);
-  EXPECT_LT(simulation.rheology().viscosity_contact, 0.5 * before);
-  EXPECT_NEAR(simulation.rheology().shear_rate, 2, 1e-12);
-  run_until(1.2);
-  EXPECT_NEAR(simulation.state().shear.strain, 1.4, 1e-12);
-  EXPECT_NEAR(simulation.state().shear.offset, 1 - 0.4 * kPeriod, 1e-11);
-  run_until(1.3);
-  EXPECT_NEAR(simulation.state().shear.strain, 1.4, 1e-12);
-  EXPECT_EQ(simulation.state().shear.rate, 0);
-}
-
 TEST(SuspensionStep, OfTwoPressedSpheresFollowsTheFilm) {
   // Without a flow two equal spheres that the force F presses have alpha dq/dt/q = -F to leading
   // order, beside the drag: q = q_0 exp(-F t/alpha), alpha = 6 pi mu (a/2)^2.
@@ -321,6 +327,9 @@ TEST(SuspensionStep, OfAContactThatSlidesHasCoulombsFriction) {
   EXPECT_NEAR(p.angular_velocities[5], -coefficient * press / (8 * M_PI), 1e-4);
   ASSERT_EQ(simulation.state().pairs.size(), 1U);
   EXPECT_NEAR(simulation.state().pairs[0].impulse, press * 1e-4, 1e-7);
+  // Files have the friction on the second sphere, which the first one pulls along.
+  const auto& memory = simulation.state().memories.of(simulation.state().pairs[0].memory);
+  EXPECT_NEAR(memory.friction()[1], coefficient * press * 1e-4, 1e-7);
 }
 
 TEST(SuspensionStep, OfAContactWhoseFilmBearsTheLoadHasNoFriction) {

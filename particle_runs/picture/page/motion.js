@@ -81,6 +81,10 @@ let planes = [];
 let presentFrame = 0;  // the last frame that is not after the time
 // With lubrication: the displacement along x, at the time, of the image across the period y.
 let offset = 0;
+// In a cell that a flow strains: its three period vectors [L], with nine numbers for each frame in
+// motion.periods.
+let lattice = null;
+const latticeOf = frame => [0, 3, 6].map(k => motion.periods.slice(9 * frame + k, 9 * frame + k + 3));
 let strain = [0, 0, 0, 0];  // strain of the cell until the time, in the order of motion.gradient
 // The contacts of frame number `frame` (-1: none read yet), as readContacts() decodes them. Each
 // array has an entry for each of `count` contacts; entries beyond are not used.
@@ -111,8 +115,20 @@ function placeOf(time) {
 const writtenPlace = (frame, k, d) =>
   motion.low[d] + motion.step[d] * written[(frame * count + k) * dim + d];
 
+const crossed = ([a, b, c], [x, y, z]) => [b * z - c * y, c * x - a * z, a * y - b * x];
+const inner = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const shiftIn = (vectors, counts) =>
+  [0, 1, 2].map(d => vectors.reduce((sum, vector, k) => sum + counts[k] * vector[d], 0));
+// The numbers of period vectors of the image whose shift is the nearest one to a vector [L].
+const nearestIn = ([a, b, c], apart) => {
+  const volume = inner(crossed(a, b), c);
+  return [crossed(b, c), crossed(c, a), crossed(a, b)].map(
+    normal => Math.round(inner(normal, apart) / volume));
+};
+
 // The present shift [L] of a periodic image, for its numbers of periods along x, y and z.
 function imageShift([alongX, alongY, alongZ]) {
+  if (lattice) return shiftIn(lattice, [alongX, alongY, alongZ]);
   const x = periodX * alongX, y = periodY * alongY, [a, b, c, d] = strain;
   return [x + (a * x + b * y) + offset * alongY, y + (c * x + d * y), periodZ * alongZ];
 }
@@ -148,7 +164,19 @@ function setTime(time) {
     if (periodX) moves -= periodX * Math.round(moves / periodX);
     offset = offsets[frame] + share * moves;
   }
-  for (let d = 0; d < dim; ++d) {
+  if (motion.periods.length) {
+    const next = latticeOf(Math.min(frame + 1, frames - 1));
+    lattice = latticeOf(Math.min(frames - 1, frame + Math.round(share)));
+    for (let i = 0; i < n; i += 3) {
+      const place = (begin, d) => motion.low[d] + motion.step[d] * written[begin + i + d];
+      const here = [0, 1, 2].map(d => place(from, d));
+      const move = here.map((x, d) => place(to, d) - x);
+      // A particle that leaves the cell comes in again at another side.
+      const shift = shiftIn(next, nearestIn(next, move));
+      for (let d = 0; d < 3; ++d) positions[i + d] = here[d] + share * (move[d] - shift[d]);
+    }
+  }
+  for (let d = 0; d < (lattice ? 0 : dim); ++d) {
     // In a sheared cell particles that leave it are not brought back.
     const period = isSheared ? 0 : [periodX, periodY, periodZ][d], begin = [cellX, cellY, cellZ][d];
     for (let i = d; i < n; i += dim) {

@@ -113,11 +113,69 @@ const isSeen = k => {
 const rank = new Uint32Array(flat ? 0 : count), chain = new Int32Array(flat ? 0 : count);
 const chained = new Int32Array(flat ? 0 : lines.pair.length);
 
-// Draws the spheres from far to near. A contact is drawn just after the nearer of its particles:
-// over both particles, and under everything in front of them.
+const isBulk = !flat && periodX > 0 && periodY > 0 && periodZ > 0;
+
+const middleOfCell = [cellX + periodX / 2, cellY + periodY / 2, cellZ + periodZ / 2];
+
+// imagesOfSpheres() in a cell that a flow strains.
+function imagesInLattice() {
+  const found = [], [a, b, c] = lattice, volume = inner(crossed(a, b), c);
+  const normals = [crossed(b, c), crossed(c, a), crossed(a, b)].map(x => x.map(y => y / volume));
+  for (let k = 0; k < count; ++k) {
+    if (!isThere(k)) continue;
+    const here = [...positions.subarray(3 * k, 3 * k + 3)], r = radii[k];
+    const at = normals.map(normal => inner(normal, plus(here, -1, middleOfCell)));
+    const margins = normals.map(normal => 0.5 + r * Math.hypot(...normal));
+    for (let n = 0; n < 27; ++n) {
+      const counts = [n % 3 - 1, Math.floor(n / 3) % 3 - 1, Math.floor(n / 9) - 1];
+      if (n === 13 || counts.some((m, d) => Math.abs(at[d] + m) >= margins[d])) continue;
+      const place = plus(here, 1, shiftIn(lattice, counts)), p = project(...place);
+      found.push({k, depth: dot(axes[2], place), x: p.x, y: p.y, r: p.near * view.scale * r});
+    }
+  }
+  return found.sort((x, y) => x.depth - y.depth);
+}
+
+// In space: the images of spheres of which a part is in the cell, from far to near. Each is {k, depth,
+// x, y, r}: the particle, its depth [L], and its place and radius on the canvas.
+function imagesOfSpheres() {
+  const found = [];
+  if (!(periodX || periodY || periodZ)) return found;
+  if (lattice) return imagesInLattice();
+  const from = [cellX, cellY, cellZ], periods = [periodX, periodY, periodZ];
+  // The shifts, in periods along axis d, with which a sphere has a part in the cell.
+  const shifts = (d, x, r) => {
+    if (!periods[d]) return [0];
+    const inside = -Math.floor((x - from[d]) / periods[d]);
+    const beyond = x + inside * periods[d] - from[d];
+    return [inside, ...beyond < r ? [inside + 1] : [],
+            ...beyond > periods[d] - r ? [inside - 1] : []];
+  };
+  for (let k = 0; k < count; ++k) {
+    if (!isThere(k)) continue;
+    const [x, y, z] = positions.subarray(3 * k, 3 * k + 3), r = radii[k];
+    for (const alongY of shifts(1, y, r))
+      for (const alongZ of shifts(2, z, r))
+        for (const alongX of shifts(0, x + imageShift([0, alongY, 0])[0], r)) {
+          if (!alongX && !alongY && !alongZ) continue;
+          const place = plus([x, y, z], 1, imageShift([alongX, alongY, alongZ]));
+          const p = project(...place);
+          found.push({k, depth: dot(axes[2], place), x: p.x, y: p.y, r: p.near * view.scale * r});
+        }
+  }
+  return found.sort((a, b) => a.depth - b.depth);
+}
+
+// Draws the spheres and their images from far to near. A contact is drawn just after the nearer of
+// its particles: over both particles, and under everything in front of them. In a cell that is
+// periodic in three directions spheres are translucent if contacts with forces are shown, and all
+// contacts are drawn over them.
 function drawSpheres() {
+  const isClear = isBulk && motion.hasForces && withContacts, beside = imagesOfSpheres();
+  if (isBulk) drawCell(true);
+  if (isClear) pen.globalAlpha = style.clearBall;
   chain.fill(-1);
-  if (withContacts) {
+  if (withContacts && !isClear) {
     order.forEach((k, i) => { rank[k] = i; });
     for (let i = 0; i < lines.count; ++i) {
       const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
@@ -126,11 +184,17 @@ function drawSpheres() {
       chain[k] = i;
     }
   }
+  let next = 0;
+  const drawImages = depth => {
+    for (; next < beside.length && beside[next].depth < depth; ++next)
+      particle(beside[next].x, beside[next].y, beside[next].r, lookOf(beside[next].k));
+  };
   for (let j = 0; j < count; ++j) {
     const k = order[j];
+    drawImages(depths[k]);
     if (isSeen(k)) {
       particle(pageX[k], pageY[k], pageRadius[k], lookOf(k));
-      if (orientations.length) drawAxes(k);
+      if (orientations.length && !isClear) drawAxes(k);
     }
     for (let i = chain[k]; i >= 0; i = chained[i]) {
       if (!contactSeen(i)) continue;
@@ -141,6 +205,10 @@ function drawSpheres() {
       pen.stroke();
     }
   }
+  drawImages(Infinity);
+  pen.globalAlpha = 1;
+  if (isClear) drawContacts();
+  if (isBulk) drawCell(false);
 }
 
 function drawDiscs() {
@@ -365,6 +433,9 @@ function shiftOf(i) {
   if (!images) return kNoShift;
   const image = images[lines.pair[i]];
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+  if (lattice)
+    return imageShift(nearestIn(lattice, [0, 1, 2].map(
+      d => positions[first * dim + d] - positions[second * dim + d])));
   if (motion.offsets.length)
     return imageShift(nearestWithOffset([0, 1, 2].map(
       d => positions[first * dim + d] - positions[second * dim + d])));

@@ -9,8 +9,8 @@
 const canvas = document.getElementById('stage'), pen = canvas.getContext('2d');
 // `scale` is in device pixels per unit of length, > 0. `x` and `y` are the coordinates of the
 // middle of the box on the canvas, from the middle of the canvas [device pixels]. `turn` is the
-// angle of the view about the third axis, and `above`, from -pi/2 to pi/2, is its angle above the
-// plane of the first two axes [rad]. `moved` is true if the reader has moved the picture.
+// angle of the view about the axis that points upwards, and `above`, from -pi/2 to pi/2, is its angle
+// above the plane of the other two axes [rad]. `moved` is true if the reader has moved the picture.
 const view = {scale: 1, x: 0, y: 0, turn: Math.PI / 6, above: Math.PI / 9, moved: false};
 let axes;  // unit vectors of the motion to the right, upwards and towards the reader
 let dots = 1;  // device pixels in a CSS pixel
@@ -18,12 +18,14 @@ let dots = 1;  // device pixels in a CSS pixel
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const plus = (a, s, b) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 
-// Sets `axes` for the angles of the view; in the plane they are the axes of the motion.
+// Sets `axes` for the angles of the view; in the plane they are the axes of the motion. In space the
+// axis motion.up, 1 or 2, points upwards.
 function setAxes() {
   const c = Math.cos(view.turn), s = Math.sin(view.turn);
   const ca = Math.cos(view.above), sa = Math.sin(view.above);
   axes = flat ? [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
               : [[c, s, 0], [-s * sa, c * sa, ca], [s * ca, -c * ca, sa]];
+  if (!flat && motion.up === 1) axes = axes.map(([x, y, z]) => [x, z, -y]);
 }
 
 // The magnification of things at a depth [L] in front of the middle of the box, divided by that in
@@ -178,6 +180,28 @@ function drawLines() {
     trace(clipByPlanes([plus(point, -reach, along), plus(point, reach, along)], i));
     pen.stroke();
   });
+}
+
+// For motions in a cell that is periodic in three directions: the edges of the cell, the three that
+// meet in the farthest corner as dashed lines (`behind`), or the others.
+function drawCell(behind) {
+  const edges = lattice || [[periodX, 0, 0], [0, periodY, 0], [0, 0, periodZ]];
+  const from = lattice ? plus(middleOfCell, -0.5, shiftIn(lattice, [1, 1, 1])) : [cellX, cellY, cellZ];
+  const corner = number => plus(from, 1, shiftIn(edges, [0, 1, 2].map(d => number >> d & 1)));
+  const farthest = edges.reduce((number, x, d) => number + (dot(x, axes[2]) < 0 ? 1 << d : 0), 0);
+  pen.strokeStyle = theme.edge;
+  pen.lineWidth = dots;
+  pen.setLineDash(behind ? [6 * dots, 5 * dots] : []);
+  pen.beginPath();
+  for (let number = 0; number < 8; ++number)
+    for (const bit of [1, 2, 4]) {
+      const other = number | bit;
+      if (other === number) continue;
+      if (behind === (number === farthest || other === farthest))
+        trace([corner(number), corner(other)]);
+    }
+  pen.stroke();
+  pen.setLineDash([]);
 }
 
 // For motions in space. If `fromFreeSide` is true, this function draws the planes that are seen

@@ -57,7 +57,8 @@ TEST_F(RestartFile, HasTheFlowOfAFluidWithInertia) {
 
 TEST_F(RestartFile, HasTheShearOfASuspension) {
   auto state = disc_on_plane(-0.75);
-  state.shear = {.strain = 7.5, .rate = -1, .offset = 0.25};
+  state.shear = {.strain = 7.5, .rate = -1, .offset = 0.25, .net_strain = -2};
+  state.shear.periods = {Vector{1, 2, 3}, Vector{0, 4, 0}, Vector{0, 0, 5}};
   EXPECT_EQ(read(write_restart(state)).shear, state.shear);
   state.shear.offset = std::numeric_limits<double>::infinity();
   EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), IsAt("restart.bin"));
@@ -202,9 +203,9 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 }
 
 TEST_F(RestartFile, OfAnotherVersionIsRefused) {
-  for (const auto* version : {"version 15", "version :", "version 13", "version 14x"}) {
+  for (const auto* version : {"version 18", "version :", "version 16", "version 17x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
-    text.replace(text.find("version 14"), 10, version);
+    text.replace(text.find("version 17"), 10, version);
     EXPECT_THAT(bad_input([&] { read(text); }), IsAt("restart.bin"));
   }
 }

@@ -44,6 +44,29 @@ TEST_F(VtkFile, OfDiscsInAPeriodicFluidHasRotationAndImages) {
   EXPECT_EQ(content.contacts[2].image, 0);
 }
 
+TEST_F(VtkFile, OfAStrainedCellHasItsPeriods) {
+  State state = no_particles(3);
+  add_particle(state, {1, 2, 3}, 1, 1);
+  state.particles.cell = {{0, 0, 0}, {4, 4, 4}};
+  EXPECT_FALSE(frame(state.particles, {}).periods);
+  const std::array<Vector, 3> periods = {Vector{1.0 / 3, 2, 3}, Vector{4, 5, 6},
+                                         Vector{7, 8, 1e-9}};
+  state.particles.cell.vectors = periods;
+  EXPECT_EQ(frame(state.particles, {}).periods, periods);
+  EXPECT_THAT(write_vtp(state.particles, {}), HasSubstr("NumberOfTuples=\"3\""));
+}
+
+TEST_F(VtkFile, OfAShearedSuspensionHasItsPeriods) {
+  State state = no_particles(3);
+  add_particle(state, {1, 2, 3}, 1, 1);
+  auto& cell = state.particles.cell;
+  cell = {{0, 0, 0}, {4, 5, 0}};
+  cell.offset = 1.0 / 3;
+  // The third axis has no period.
+  const std::array<Vector, 3> periods = {Vector{4, 0, 0}, Vector{1.0 / 3, 5, 0}, Vector{}};
+  EXPECT_EQ(frame(state.particles, {}).periods, periods);
+}
+
 TEST_F(VtkFile, WithoutAFluidHasNoRotation) {
   State state = no_particles(2);
   add_particle(state, {1, 2, 0}, 1, 1);

@@ -403,6 +403,44 @@ TEST_P(ParticlesInBrowser, ContactIsAsLongAsThePairIsApartWhileItCrossesAPeriod)
   for (const double length : found) EXPECT_NEAR(length / found[0].get<double>(), 1, 0.2);
 }
 
+/// A cell with these images has an offset, or period vectors.
+class ParticlesPageOfACell : public ::testing::TestWithParam<bool> {};
+
+TEST_P(ParticlesPageOfACell, DrawsImagesAndClearSpheresInACellThatIsPeriodicInSpace) {
+  auto playback = sheared_pair();
+  if (GetParam()) {
+    playback.frames[0].offset.reset();
+    playback.frames[0].periods = {Vector{10, 0, 0}, Vector{3, 10, 0}, Vector{0, 0, 10}};
+  }
+  playback.frames[0].contacts = {{0, 1, 0, 0}};
+  playback.frames[0].contacts[0].normal_force = 1;
+  const auto found = read_page(particles_page(playback, "Sheared in space"), R"JS(
+(async () => {
+  const found = [], pen = document.getElementById('stage').getContext('2d');
+  const drawImage = pen.drawImage.bind(pen);
+  pen.drawImage = (sprite, x, y, w, h) => {
+    found.push([x + w / 2, y + h / 2, w, pen.globalAlpha]);
+    drawImage(sprite, x, y, w, h);
+  };
+  window.viscontactPlayer.draw();
+  tell(found);
+})();
+)JS",
+                               700);
+  // As in the still picture: the sphere at z = 2, then sphere 0 at the bottom, and its image at the
+  // top.
+  ASSERT_EQ(found.size(), 3U);
+  const auto at = [&](std::size_t k, std::size_t n) { return found[k][n].get<double>(); };
+  EXPECT_LT(at(0, 2), at(1, 2));
+  EXPECT_LT(at(1, 2), at(2, 2));
+  EXPECT_LT(at(2, 1), at(0, 1));
+  EXPECT_LT(at(0, 1), at(1, 1));
+  EXPECT_GT(at(2, 0), at(1, 0));
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(at(k, 3), kStyle.clear_ball, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(OffsetOrVectors, ParticlesPageOfACell, ::testing::Bool());
+
 // Disc 0 at (5, 0.3) touches the image of disc 1, which the shear brings to (5, -0.7) at the time
 // 0.5; both discs have images at the opposite side.
 TEST(ParticlesPage, DrawsImagesWhereTheShearHasMovedThem) {

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <map>
 #include <regex>
+#include <vector>
 
 #include "tests/common/regular_expressions.hpp"
 #include "tests/common/well_formed_xml.hpp"
@@ -91,6 +93,48 @@ TEST(ParticlesPicture, WidthOfAContactIsItsForceAndItsColourTheMobilisedFriction
   const auto scene = scene_of(impact, {0, 1}, {}, 2);
   EXPECT_EQ(scene.top_force, 1);
   EXPECT_EQ(force_share(scene, impact.frames[1].contacts.front()), 1);
+}
+
+/// The centres and radii of all circles.
+std::vector<std::array<double, 3>> circles_in(const std::string& svg) {
+  std::vector<std::array<double, 3>> circles;
+  const std::regex circle("<circle cx=\"([0-9.-]+)\" cy=\"([0-9.-]+)\" r=\"([0-9.]+)\"");
+  for (auto at = std::sregex_iterator(svg.begin(), svg.end(), circle); at != std::sregex_iterator();
+       ++at)
+    circles.push_back({std::stod((*at)[1]), std::stod((*at)[2]), std::stod((*at)[3])});
+  return circles;
+}
+
+TEST(ParticlesPicture, OfAPeriodicCellInSpaceHasItsEdgesAndTheImagesAtItsSidesInPerspective) {
+  auto playback = sheared_pair();
+  const auto svg = particles_picture(playback, "Sheared", 1);
+  SCOPED_TRACE(svg);
+  expect_well_formed_picture(svg);
+  EXPECT_EQ(count_of("stroke-dasharray", svg), 1U);
+  EXPECT_THAT(svg, Not(HasSubstr("fill-opacity")));
+  // From the back to the front: the sphere at z = 2, then sphere 0 and its image at (7, 10.5, 8), of
+  // which the one that is higher, and seen from above, is nearer.
+  const auto circles = circles_in(svg);
+  ASSERT_EQ(circles.size(), 3U);
+  EXPECT_LT(circles[0][2], circles[1][2]);
+  EXPECT_LT(circles[1][2], circles[2][2]);
+  EXPECT_LT(circles[2][1], circles[0][1]);  // y is upwards
+  EXPECT_LT(circles[0][1], circles[1][1]);
+  EXPECT_GT(circles[2][0], circles[1][0]);
+  // The same with period vectors.
+  auto strained = playback;
+  strained.frames[0].offset.reset();
+  strained.frames[0].periods = {Vector{10, 0, 0}, Vector{3, 10, 0}, Vector{0, 0, 10}};
+  const auto other = particles_picture(strained, "Strained", 1);
+  expect_well_formed_picture(other);
+  EXPECT_EQ(count_of("stroke-dasharray", other), 1U);
+  EXPECT_EQ(circles_in(other).size(), 3U);
+  // Under the lines of forces spheres are translucent.
+  playback.frames[0].contacts = {{0, 1, 0, 0}};
+  playback.frames[0].contacts[0].normal_force = 1;
+  const auto loaded = particles_picture(playback, "Loaded", 1);
+  EXPECT_EQ(count_of("fill-opacity", loaded), 1U);
+  EXPECT_LT(loaded.rfind("<circle "), loaded.find("<path stroke="));
 }
 
 TEST(ParticlesPicture, HasNoMorePanelsThanFrames) {

@@ -34,6 +34,21 @@ inline Playback falling_row(int dimension, int count, int frames) {
   return playback;
 }
 
+/// Two spheres of radius 1 in a cell from 0 to 10 that is periodic in three directions and sheared,
+/// so that the image across y is displaced by 3. Sphere 0 lies across the side y = 0.
+inline Playback sheared_pair() {
+  Playback playback;
+  playback.dimension = 3;
+  playback.up = 1;
+  playback.radii = {1, 1};
+  playback.cell.lengths = {10, 10, 10};
+  Frame frame;
+  frame.positions = {4, 0.5F, 8, 5, 5, 2};
+  frame.offset = 3;
+  playback.frames = {frame};
+  return playback;
+}
+
 /// falling_row() of five particles with friction. The first two particles are one rigid body on a
 /// hinge, a spring joins the second and the third, and an arm the third and the fourth. All turn,
 /// and the last one slides on the floor in the last frame.

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace viscontact::particles {
@@ -59,6 +60,21 @@ TEST(PairDistribution, FindsImagesOfAShearedCell) {
   const auto row = only_row(TwoSpheres({-8, -27, 0}, 10).rows());
   EXPECT_DOUBLE_EQ(row.distance, 1.21);  // 13^(1/2)/3 = 1.2019
   EXPECT_EQ(row.extension, 2 * row.all);
+}
+
+TEST(PairDistribution, FindsImagesOfAStrainedCell) {
+  // The image by the first and the third vector is at (2, 1, 2), 3 away and within the first bin.
+  TwoSpheres spheres({-20, -9, -28});
+  spheres.c.setting.lubrication->gradient = {Vector{1, 0, 0}, Vector{0, -0.5, 0},
+                                             Vector{0, 0, -0.5}};
+  spheres.playback.frames[0].offset = {};
+  spheres.playback.frames[0].periods = {Vector{22, 10, 0}, Vector{-9, 28, 0}, Vector{0, 0, 30}};
+  spheres.playback.frames[0].positions = {8, 8, 20, -12, -1, -8};
+  const auto row = only_row(spheres.rows());
+  EXPECT_DOUBLE_EQ(row.distance, 1.01);
+  // x E x = 4 - 0.5 - 2 > 0. The flow extends where cos^2 > 1/3.
+  EXPECT_EQ(row.compression, 0);
+  EXPECT_NEAR(row.extension, row.all / (1 - 1 / std::sqrt(3.0)), 1e-3 * row.extension);
 }
 
 TEST(PairDistribution, IsEmptyWithoutABox) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
@@ -14,6 +15,7 @@
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/contact/film_law.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
@@ -146,6 +148,36 @@ TEST_F(Suspensions, GoOnAfterAnInterruptAndFromARestartFile) {
             content(out("rest") / "final_particles.csv"));
 }
 
+TEST_F(Suspensions, GoOnFromARestartFileAcrossAReversal) {
+  const auto reversed = replaced(
+      replaced(kShear, "shear_rate = 4.0",
+               "shear_rate = [ { until = 0.2, value = 4.0 }, { until = 1.0, value = -4.0 } ]"),
+      "end_strain = 2.0", "end_strain = 1.2");
+  compute(reversed);
+  EXPECT_NEAR(column("rheology.csv", "strain").back(), 1.2, 1e-12);
+  EXPECT_NEAR(column("rheology.csv", "net_strain").back(), 0.8 - 0.4, 1e-12);
+  const auto half = replaced(replaced(reversed, "end_strain = 1.2", "end_strain = 0.78"),
+                             "average_from = 0.21", "average_from = 0.1");
+  expect_done(run(put_case(half, "half.toml"), out("half")));
+  expect_done(
+      run(put_case(reversed), out("rest"), {"--restart", (out("half") / "restart.bin").string()}));
+  EXPECT_EQ(content(out() / "final_particles.csv"), content(out("rest") / "final_particles.csv"));
+}
+
+TEST_F(Suspensions, HaveTheStressThatIsGiven) {
+  const auto given =
+      replaced(replaced(kShear, "shear_rate = 4.0", "stress = -40.0"),
+               "strain_step = 0.02\nend_strain = 2.0", "time_step = 0.005\nend_time = 0.3");
+  compute(given);
+  const auto viscosity = column("rheology.csv", "viscosity"),
+             rate = column("rheology.csv", "shear_rate");
+  ASSERT_EQ(viscosity.size(), 60U);
+  // Files have nine digits or more.
+  for (std::size_t k = 0; k < rate.size(); ++k)
+    EXPECT_NEAR(2.0 * viscosity[k] * rate[k], -40, 1e-6);
+  EXPECT_LT(column("rheology.csv", "net_strain").back(), -0.5);
+}
+
 TEST_F(Suspensions, AreComparedWithContactAlone) {
   const auto text = replaced(replaced(kShear, "regularisation", "compare = true\nregularisation"),
                              "end_strain = 2.0", "end_strain = 1.0");
@@ -217,6 +249,95 @@ radius = 1.0
   EXPECT_NEAR(long_steps / short_steps, 2, 0.2);
   // What is left without a step: the start at a distance of 20 radii.
   EXPECT_NEAR(2 * short_steps - long_steps, 0, 3e-4);
+}
+
+TEST_F(Suspensions, StrainTheirCellAndGoOnFromARestartFile) {
+  const auto text = replaced(replaced(kShear, "shear_rate = 4.0", "strain_rate = 2.0"),
+                             "end_strain = 2.0", "end_strain = 4.0");
+  expect_done(run(put_case(text), out("whole")));
+  const auto whole = record("whole");
+  EXPECT_LE(whole["largest_overlap"], 1e-7);
+  // By all images of the cell that the frames and tables have.
+  EXPECT_LE(whole["final_overlap"], 1e-7);
+  // In a planar extension the stress is along x and y, and half of n1.
+  EXPECT_NEAR(whole["mean_n1"], 2 * whole["mean_viscosity"].get<double>(), 1e-6);
+  expect_done(run(put_case(replaced(text, "end_strain = 4.0", "end_strain = 2.0"), "half.toml"),
+                  out("half")));
+  expect_done(
+      run(put_case(text), out("rest"), {"--restart", (out("half") / "restart.bin").string()}));
+  EXPECT_EQ(content(out("whole") / "final_particles.csv"),
+            content(out("rest") / "final_particles.csv"));
+}
+
+TEST_F(Suspensions, ThatGoOnWithAnotherRateHaveFramesWithTheirOffset) {
+  const auto first =
+      replaced(replaced(kShear, "shear_rate = 4.0", "shear_rate = 1.0"),
+               "strain_step = 0.02\nend_strain = 2.0", "time_step = 0.02\nend_time = 0.3");
+  const auto second = replaced(replaced(first, "shear_rate = 1.0", "shear_rate = 2.0"),
+                               "end_time = 0.3", "end_time = 0.7");
+  expect_done(run(put_case(first, "first.toml"), out("first")));
+  expect_done(run(put_case(second), out(),
+                  {"--restart", (out("first") / "restart.bin").string(), "--xyz"}));
+  const auto text = content(out() / "particles.xyz");
+  const auto offsets = matches_in(text, "Lattice=\"10 0 0 ([^ ]+) 10 0 0 0 10\"", 1);
+  const auto times = matches_in(text, " Time=([^ \n]+)", 1);
+  ASSERT_EQ(offsets.size(), times.size());
+  ASSERT_GE(times.size(), 8U);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    // The net strain, 0.3 of the rate 1 and then that of the rate 2, times the edge.
+    const double time = std::stod(times[k]), offset = 10 * (0.3 + 2 * (time - 0.3));
+    const double difference = std::stod(offsets[k]) - offset;
+    // Whole periods; times and strains have rounding errors.
+    EXPECT_NEAR(difference - 10 * std::round(difference / 10), 0, 1e-9) << time;
+    EXPECT_LE(std::abs(std::stod(offsets[k])), 5 + 1e-9);
+  }
+  EXPECT_NEAR(column("rheology.csv", "net_strain").back(), 1.1, 1e-12);
+}
+
+TEST_F(Suspensions, OfTheShippedExtensionHasNoOverlap) {
+  const auto text = read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/suspensions/extension.toml");
+  compute(replaced(replaced(text, "end_strain = 4.0", "end_strain = 0.5"), "average_from = 1.0",
+                   "average_from = 0.2"));
+  EXPECT_LE(record()["largest_overlap"], 1e-7);
+  EXPECT_EQ(record()["unconverged_steps"], 0);
+  EXPECT_GT(record()["mean_viscosity"], 3);
+}
+
+TEST_F(Suspensions, InABoxThatIsNotTurnedEndWithTheStrainReached) {
+  const auto text =
+      replaced(replaced(kShear, "shear_rate = 4.0 }", "strain_rate = 2.0 }\nturned = false"),
+               "end_strain = 2.0", "end_strain = 3.0");
+  const auto stopped = run(put_case(text), out());
+  EXPECT_EQ(stopped.exit_status, results::exit_code_of(ErrorKind::kNotConverged)) << stopped.errors;
+  // The edge 10 falls to 2 (2 + 0.5) 1.3 = 6.5, and the strain is twice the logarithm.
+  EXPECT_NEAR(column("rheology.csv", "strain").back(), 2 * std::log(10 / 6.5), 0.0201);
+  EXPECT_TRUE(fs::exists(out() / "particles.html"));
+}
+
+TEST_F(Suspensions, OfOneSphereAndAPlaneAreTheLecturesCase) {
+  const fs::path data = VISCONTACT_SOURCE_FOLDER "/data";
+  const auto done = run(data / "cases/suspensions/lecture.toml", out());
+  expect_done(done);
+  // docs/theory.md, section 3; a step ends up to 1e-4 above the least gap.
+  EXPECT_NEAR(std::ranges::min(column("rheology.csv", "smallest_gap")) / 2.9673e-3, 1, 2e-4);
+  expect_done(run_viscontact({"simulate", (data / "cases/lecture.toml").string(), "--fit",
+                              (data / "fits/lecture.json").string(), "-o", path("one"), "--models",
+                              "inertial"}));
+  std::map<double, double> gaps;
+  for (const auto& row : reduced_model::read_trajectory(path("one/trajectories/inertial.csv")).rows)
+    gaps[row.time] = row.gap;
+  const auto times = column("motion.csv", "time"), heights = column("motion.csv", "z");
+  std::size_t compared = 0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const auto after = gaps.lower_bound(times[k] - 1e-9);
+    if (after == gaps.end() || after->first > times[k] + 1e-9) continue;
+    // Steps of 1e-3 leave 1e-6 of the gap.
+    EXPECT_NEAR((heights[k] - 1) / after->second, 1, 3e-6) << times[k];
+    ++compared;
+  }
+  EXPECT_GT(compared, 190U);
+  // Without a box there is no volume, and so no viscosity of the suspension.
+  EXPECT_THAT(done.errors, Not(HasSubstr("viscosity")));
 }
 
 TEST_F(Suspensions, AreSweptWithTheirMeans) {

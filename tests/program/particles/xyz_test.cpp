@@ -117,6 +117,47 @@ end_time = 1.5
   expect_same_numbers("T T F", "6 0 0 -0.3 6 0 0 0 2", "0 0 -1");
 }
 
+// A shear along y that changes along x: after the strain 0.5 the first edge is (8, 4, 0), and the
+// cell stays around its middle.
+TEST_F(XyzFile, OfAStrainedCellHasItsPeriodVectors) {
+  expect_done(run(put_case(R"(title = "A sphere in a strained cell"
+[space]
+dimension = 3
+[domain]
+box = { from = [0.0, 0.0, 0.0], to = [8.0, 8.0, 8.0], periodic = [true, true, true] }
+[lubrication]
+viscosity = 1.0
+velocity = { gradient = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]] }
+[viscous_contact]
+time_step = 0.25
+end_time = 0.5
+[[particle]]
+centre = [1.0, 1.0, 1.0]
+radius = 1.0
+)"),
+                  out(), {"--xyz"}));
+  expect_same_numbers("T T T", "8 4 0 0 8 0 0 0 8", "0 -2 0");
+}
+
+// After the strain 0.75 the image across y has moved by 6, and so by -2 from a period. The cell stays
+// around its middle.
+TEST_F(XyzFile, OfAShearedSuspensionHasItsPresentPeriods) {
+  const auto of = [&](const std::string& periodic, const std::string& keys) {
+    expect_done(
+        run(put_case("title = \"A sphere\"\n[space]\ndimension = 3\n[domain]\n"
+                     "box = { from = [1.0, 2.0, 3.0], to = [9.0, 10.0, 11.0], periodic = [" +
+                     periodic + "] }\n[lubrication]\nviscosity = 1.0\n" + keys +
+                     "[viscous_contact]\ntime_step = 0.25\nend_time = 0.75\n"
+                     "[[particle]]\ncentre = [5.0, 6.0, 7.0]\nradius = 1.0\n"),
+            out(), {"--xyz"}));
+  };
+  of("true, true, true", "velocity = { shear_rate = 1.0 }\n");
+  expect_same_numbers("T T T", "8 0 0 -2 8 0 0 0 8", "2 2 3");
+  // Between walls across z, at rest, but displaced.
+  of("true, true, false", "offset = 3.0\n");
+  expect_same_numbers("T T F", "8 0 0 3 8 0 0 0 8", "-0.5 2 3");
+}
+
 TEST_F(XyzFile, OfAnInterruptedRunIsThatOfTheWholeRun) {
   const auto parts = path("parts");
   const std::string interrupt =

@@ -1,0 +1,17 @@
+// Settings and starts that a suspension cannot have.
+#pragma once
+
+#include "viscontact/particles/setting/setting.hpp"
+
+namespace viscontact::particles {
+
+/// Throws Error(kBadInput) if a period is shorter than two pairs of the length `pair_length` [L], if
+/// the flow does not carry the images of spheres, if spheres with inertia or pieces of the flow
+/// cannot be computed, or if a stress is given beside a motion that needs a given rate.
+void check_setting(const Setting& setting, double pair_length);
+
+/// Throws Error(kBadInput) if motions are given, if spheres overlap, where `smallest_gap` [L] is
+/// that of all pairs, or if one has no mass with inertia.
+void check_spheres(const Setting& setting, const Particles& particles, double smallest_gap);
+
+}  // namespace viscontact::particles
