@@ -159,7 +159,7 @@ CaseStudy study_of_particles(const particles::ParticlesSweep& sweep) {
               .part = "run",
               .request = c.sweep.value_or(case_file::SweepRequest{}),
               .columns = {c.setting.fluid ? "mean_apparent_viscosity" : "contacts"}};
-  if (!c.particles_file.empty()) s.files.push_back(c.particles_file);
+  for (const auto& file : particles::files_of(c)) s.files.push_back(file);
   return s;
 }
 
