@@ -68,7 +68,7 @@ class Solver {
   /// change. With little drag the residual has too few digits for it.
   void balance(const std::vector<Motion>& loads, std::vector<Motion>& motions) const {
     const auto& resistance = problem_.system->resistance();
-    if (!resistance.drags.empty() || resistance.held > 0) return;
+    if (!resistance.drags.empty() || resistance.fixed > 0) return;
     Lanes force{};
     double drag = 0;
     for (std::size_t k = 0; k < motions.size(); ++k) {

@@ -89,7 +89,7 @@ Columns common_block(const Resistance& resistance) {
     add(row.normal, square(row.drag.axial[0] + row.drag.axial[1]), across);
   }
   for (const auto& pair : resistance.pairs) {
-    if (resistance.held == 0) break;
+    if (resistance.fixed == 0) break;
     if (index_of(pair.second) < resistance.free_count()) continue;
     const double across = pair.turn_first + 2 * pair.turn_mixed + pair.turn_second;
     add(pair.normal, pair.squeeze, across * pair.inverse_arm * pair.inverse_arm);

@@ -27,7 +27,7 @@ class ConjugateGradients {
     double reduction = 0;
   };
   explicit ConjugateGradients(ThreadPool& pool) : pool_(&pool) {}
-  /// Solves R motions = loads from the given motions on. Bodies that are held have motions and
+  /// Solves R motions = loads from the given motions on. Fixed bodies have motions and
   /// loads 0. The iteration also ends where rounding errors keep the residual from falling.
   Result solve(const Resistance& resistance, const BlockPreconditioner& preconditioner,
                std::span<const Motion> loads, std::span<Motion> motions, const End& end,

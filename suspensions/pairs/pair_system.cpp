@@ -45,8 +45,8 @@ PairSystem::PairSystem(const PairLubrication& lubrication, std::span<const doubl
   const double mu = lubrication.viscosity;
   for (const double a : radii) {
     const bool is_plane = std::isinf(a);
-    assert(is_plane || resistance_.held == 0);
-    if (is_plane) ++resistance_.held;
+    assert(is_plane || resistance_.fixed == 0);
+    if (is_plane) ++resistance_.fixed;
     resistance_.spheres.push_back(is_plane
                                       ? SphereDrag{}
                                       : SphereDrag{lubrication.drag * 6 * pi * mu * a,

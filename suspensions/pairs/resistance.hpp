@@ -58,11 +58,11 @@ struct Resistance {
   std::vector<SlipRow> slips;
   /// Bodies at the end of `spheres` that always move with the flow, the planes. Their loads count
   /// as 0, and no linear problem moves them.
-  std::size_t held = 0;
+  std::size_t fixed = 0;
   RateRow rate;  ///< without loads: the rate is not among the unknowns
 
   std::size_t count() const { return spheres.size(); }
-  std::size_t free_count() const { return spheres.size() - held; }
+  std::size_t free_count() const { return spheres.size() - fixed; }
   /// loads = R motions.
   void multiply(std::span<const Motion> motions, std::span<Motion> loads) const;
 };

@@ -121,7 +121,7 @@ void SuspensionStep::add_to_rate(std::size_t p) {
 ConjugateGradients::Result SuspensionStep::solve_with_rate(const ConjugateGradients::End& end) {
   auto& rate = *rate_;
   auto& resistance = system_.resistance();
-  assert(resistance.held == 0 && inertia_.empty());
+  assert(resistance.fixed == 0 && inertia_.empty());
   std::vector<Motion> product(motions_.size());
   resistance.multiply(motions_, product);
   // The unknowns are the rate and the motions less `share` of the present ones times the rate,

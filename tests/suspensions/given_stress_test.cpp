@@ -12,29 +12,15 @@ namespace {
 
 constexpr double kCube = 8.5;
 
-struct StressedKind {
-  PairTerms pairs;
-  double regularisation, roughness, friction;
-};
-
-const std::vector<StressedKind> kStressedKinds{
+const std::vector<StepKind> kStressedKinds{
     {PairTerms::kNearContact, 1e-3, 0, 0}, {PairTerms::kTables, 0, 0, 0},
     {PairTerms::kTables, 1e-3, 1e-2, 0.5}, {PairTerms::kNearContact, 0, 1e-2, 0.3},
     {PairTerms::kNone, 0, 0, 0},           {PairTerms::kNone, 0, 1e-3, 0.3},
 };
 
-Setting stressed(const StressedKind& kind, double stress) {
-  auto setting = sheared_cube(kCube, 1);
-  auto& of = *setting.lubrication;
-  of.pairs = kind.pairs;
-  of.regularisation = kind.regularisation;
-  of.roughness = kind.roughness;
-  of.stress = stress;
-  if (kind.friction > 0) setting.laws.friction = FrictionLaw{kind.friction};
-  if (kind.pairs == PairTerms::kNone) {
-    setting.laws.film.viscosity = 1;
-    setting.laws.film.roughness = 1e-3;
-  }
+Setting stressed(const StepKind& kind, double stress) {
+  auto setting = sheared_cube(kCube, 1, kind);
+  setting.lubrication->stress = stress;
   setting.time_step = 0.02;
   return setting;
 }

@@ -204,20 +204,7 @@ TEST(StepBetweenWalls, BalancesTheEnergyOfSpheresWithInertia) {
 TEST(StepBetweenWalls, IsContinuedFromAStateBitForBit) {
   for (const auto& kind : kKinds) {
     SCOPED_TRACE(&kind - kKinds.data());
-    const auto setting = between_walls(kind);
-    SuspensionSimulation whole(setting, start(), 1);
-    for (int n = 0; n < 20; ++n) whole.step(10);
-    SuspensionSimulation rest(setting, whole.state(), 1);
-    for (int n = 0; n < 8; ++n) {
-      whole.step(10);
-      rest.step(10);
-    }
-    EXPECT_EQ(whole.state().particles.positions, rest.state().particles.positions);
-    EXPECT_EQ(whole.state().particles.velocities, rest.state().particles.velocities);
-    EXPECT_EQ(whole.state().particles.angular_velocities,
-              rest.state().particles.angular_velocities);
-    EXPECT_EQ(whole.state().pairs, rest.state().pairs);
-    EXPECT_EQ(whole.state().walls, rest.state().walls);
+    expect_continued(between_walls(kind), start(), 20, 8);
   }
 }
 

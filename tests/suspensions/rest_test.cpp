@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <ostream>
 #include <tuple>
 
 #include "tests/suspensions/spheres.hpp"
@@ -15,37 +14,19 @@ namespace {
 
 constexpr double kSide = 8.5;
 
-struct RestingKind {
-  PairTerms pairs;
-  double regularisation, roughness, friction;
-};
-
-const std::vector<RestingKind> kRestingKinds{
+const std::vector<StepKind> kRestingKinds{
     {PairTerms::kTables, 0, 0, 0},         {PairTerms::kNearContact, 0, 0, 0},
     {PairTerms::kNearContact, 1e-3, 0, 0}, {PairTerms::kTables, 0, 1e-2, 0},
     {PairTerms::kTables, 1e-3, 1e-2, 0.5}, {PairTerms::kNearContact, 0, 1e-2, 0.3},
     {PairTerms::kNone, 0, 0, 0},           {PairTerms::kNone, 0, 1e-3, 0.5},
 };
 
-void PrintTo(const RestingKind& kind, std::ostream* out) {
-  *out << "pairs " << static_cast<int>(kind.pairs) << ", regularisation " << kind.regularisation
-       << ", roughness " << kind.roughness << ", friction " << kind.friction;
-}
-
 enum class Flow : std::uint8_t { kRate, kStress, kExtension };
 
 /// A flow until 0.2 that then stops, and goes back after 0.3.
-Setting stopped(const RestingKind& kind, Flow flow) {
-  auto setting = sheared_cube(kSide, 0);
+Setting stopped(const StepKind& kind, Flow flow) {
+  auto setting = sheared_cube(kSide, 0, kind);
   auto& of = *setting.lubrication;
-  of.pairs = kind.pairs;
-  of.regularisation = kind.regularisation;
-  of.roughness = kind.roughness;
-  if (kind.friction > 0) setting.laws.friction = FrictionLaw{kind.friction};
-  if (kind.pairs == PairTerms::kNone) {
-    setting.laws.film.viscosity = 1;
-    setting.laws.film.roughness = 1e-3;
-  }
   of.gradient = {};
   for (const auto& [until, factor] : {std::pair{0.2, 1.0}, {0.3, 0.0}, {0.4, -1.0}}) {
     auto& piece = of.pieces.emplace_back();
@@ -74,7 +55,7 @@ double fastest(const SuspensionSimulation& simulation) {
   return most;
 }
 
-class FlowThatStops : public testing::TestWithParam<std::tuple<RestingKind, Flow>> {};
+class FlowThatStops : public testing::TestWithParam<std::tuple<StepKind, Flow>> {};
 
 TEST_P(FlowThatStops, LeavesSpheresAtRest) {
   const auto& [kind, flow] = GetParam();
@@ -110,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, FlowThatStops,
                                                           Flow::kExtension)));
 
 TEST(FlowThatStopsInOtherUnits, IsTheSame) {
-  const RestingKind smooth{PairTerms::kTables, 0, 0, 0};
+  const StepKind smooth{PairTerms::kTables, 0, 0, 0};
   // The gradient of a given stress is that at the rate 1 in any units.
   const auto rows = [&](double length, double time, double mass) {
     auto setting = stopped(smooth, Flow::kStress);

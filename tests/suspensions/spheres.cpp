@@ -1,5 +1,7 @@
 #include "tests/suspensions/spheres.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -98,6 +100,42 @@ Setting sheared_cube(double period, double offset) {
   lubrication.offset = offset;
   setting.lubrication = lubrication;
   return setting;
+}
+
+void PrintTo(const StepKind& kind, std::ostream* out) {
+  *out << "pairs " << static_cast<int>(kind.pairs) << ", regularisation " << kind.regularisation
+       << ", roughness " << kind.roughness << ", friction " << kind.friction;
+}
+
+Setting sheared_cube(double period, double offset, const StepKind& kind) {
+  auto setting = sheared_cube(period, offset);
+  auto& of = *setting.lubrication;
+  of.pairs = kind.pairs;
+  of.regularisation = kind.regularisation;
+  of.roughness = kind.roughness;
+  if (kind.friction > 0) setting.laws.friction = FrictionLaw{kind.friction};
+  if (kind.pairs == PairTerms::kNone) {
+    setting.laws.film.viscosity = 1;
+    setting.laws.film.roughness = 1e-3;
+  }
+  return setting;
+}
+
+void expect_continued(const Setting& setting, const State& start, int before, int after) {
+  SuspensionSimulation whole(setting, start, 1);
+  for (int n = 0; n < before; ++n) whole.step(10);
+  SuspensionSimulation rest(setting, whole.state(), 1);
+  for (int n = 0; n < after; ++n) {
+    whole.step(10);
+    rest.step(10);
+  }
+  const State &one = whole.state(), &two = rest.state();
+  EXPECT_EQ(one.particles.positions, two.particles.positions);
+  EXPECT_EQ(one.particles.velocities, two.particles.velocities);
+  EXPECT_EQ(one.particles.angular_velocities, two.particles.angular_velocities);
+  EXPECT_EQ(one.pairs, two.pairs);
+  EXPECT_EQ(one.walls, two.walls);
+  EXPECT_EQ(one.shear, two.shear);
 }
 
 RelativeMotion relative_motion(const SuspensionSimulation& simulation, const Setting& setting,

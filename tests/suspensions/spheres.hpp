@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <ostream>
 #include <vector>
 
 #include "tests/common/random.hpp"
@@ -39,6 +40,19 @@ std::vector<double> two_sizes(std::size_t count);
 
 /// A periodic cube, sheared with rate 1, with near-contact terms.
 Setting sheared_cube(double period, double offset);
+
+/// Pairs and contacts of a step.
+struct StepKind {
+  PairTerms pairs;
+  double regularisation, roughness, friction;
+};
+void PrintTo(const StepKind& kind, std::ostream* out);
+/// The same cube with this kind of pairs, whose films take the place of those that are left out.
+Setting sheared_cube(double period, double offset, const StepKind& kind);
+
+/// Expects that a run of `before` and `after` steps has the same bits if it is continued from its
+/// state after the first ones.
+void expect_continued(const Setting& setting, const State& start, int before, int after);
 
 /// Velocity and angular velocity of sphere k less those of the flow.
 struct RelativeMotion {
