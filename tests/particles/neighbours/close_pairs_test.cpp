@@ -14,7 +14,7 @@
 
 namespace viscontact::particles {
 
-/// For the messages of GoogleTest.
+// For the messages of GoogleTest.
 void PrintTo(const ClosePair& pair, std::ostream* out) { *out << pair.first << '-' << pair.second; }
 
 namespace {
