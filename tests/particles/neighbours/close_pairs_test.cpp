@@ -14,7 +14,6 @@
 
 namespace viscontact::particles {
 
-// For the messages of GoogleTest.
 void PrintTo(const ClosePair& pair, std::ostream* out) { *out << pair.first << '-' << pair.second; }
 
 namespace {
