@@ -16,6 +16,7 @@
 #include "viscontact/arrangement/places.hpp"
 #include "viscontact/arrangement/relaxation.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/root_finding.hpp"
 #include "viscontact/common/splitmix.hpp"
 #include "viscontact/particles/domain/region.hpp"
 
@@ -69,7 +70,7 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   const auto dimension = placed.dimension();
   // If the same number of particles formed the densest lattice (triangular or face-centred cubic)
   // in the domain, the distance of neighbours would be `lattice`.
-  const double n = static_cast<double>(count);
+  const auto n = static_cast<double>(count);
   const double lattice = edge_of(
       dimension == 2 ? 2 * size / (std::sqrt(3.0) * n) : std::sqrt(2.0) * size / n, dimension);
   double span = lattice;
@@ -119,6 +120,14 @@ void put_at_random(PlacedParticles& placed, int tries, SplitMix64& random) {
   }
 }
 
+/// Area [L^2] or volume [L^3] of the particles with half of the gap around them.
+double covered(std::span<const double> radii, double gap, int dimension) {
+  assert(dimension == 2 || dimension == 3);
+  double sum = 0;
+  for (const double radius : radii) sum += round_shape(dimension, radius + gap / 2).measure();
+  return sum;
+}
+
 /// The factor by which all particles and their gaps must be smaller so that these particles, which
 /// are jammed with such a mean overlap, get gaps that are large enough; 0 if none is found.
 double reached_scale(const Asked& asked, const PlacedParticles& jammed, double overlap) {
@@ -143,13 +152,51 @@ double reached_scale(const Asked& asked, const PlacedParticles& jammed, double o
   return 0;
 }
 
+/// The indices of the radii in falling order. Equal radii keep their order.
+std::vector<std::size_t> largest_first(const std::vector<double>& radii) {
+  std::vector<std::size_t> order(radii.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](auto i, auto j) { return radii[i] > radii[j]; });
+  return order;
+}
+
+/// Fraction that cannot be exceeded. Equal particles, enlarged by half of the gap, do not overlap,
+/// and cover at most what the densest lattice (triangular, face-centred cubic) covers.
+double densest_fraction(std::span<const double> radii, int dimension) {
+  const auto [smallest, largest] = std::ranges::minmax(radii);
+  if (smallest < largest) return 1;
+  return dimension == 2 ? 0.9068996821171089   // pi/sqrt(12)
+                        : 0.7404804896930610;  // pi/sqrt(18)
+}
+
+/// Throws the error that these particles do not fit into a domain of this size.
+void throw_unfit(const Arrangement& asked, int dimension, double size, bool has_planes,
+                 const std::string& why) {
+  const auto [smallest, largest] = std::ranges::minmax(asked.radii);
+  const auto radii = smallest == largest ? fmt::format("radius {}", largest)
+                                         : fmt::format("radii {:.6g} to {:.6g}", smallest, largest);
+  throw Error(ErrorKind::kBadInput,
+              "{} {} of {} with gaps of at least {} do not fit; they take {:.4g} of the {} "
+              "of the {} ({}); use fewer or smaller ones, or a smaller gap",
+              asked.radii.size(), dimension == 2 ? "discs" : "spheres", radii, asked.smallest_gap,
+              size_of(asked, dimension) / size, dimension == 2 ? "area" : "volume",
+              has_planes ? "domain that the planes leave free" : "domain", why);
+}
+
 }  // namespace
 
 double size_of(const Arrangement& asked, int dimension) {
-  assert(dimension == 2 || dimension == 3);
-  double sum = 0;
-  for (const double radius : asked.radii) sum += round_shape(dimension, radius).measure();
-  return sum;
+  return covered(asked.radii, 0, dimension);
+}
+
+double default_gap(std::span<const double> radii, int dimension, double size) {
+  assert(size > 0);
+  const double packed =
+      size * (dimension == 2 ? ArrangementTuning::kPackedArea : ArrangementTuning::kPackedVolume);
+  const double alone = covered(radii, 0, dimension), most = (alone + packed) / 2;
+  if (alone >= packed) return 0;
+  return bisect_first_true(0, ArrangementTuning::kGapOfRadius * std::ranges::min(radii),
+                           [&](double gap) { return covered(radii, gap, dimension) > most; });
 }
 
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
@@ -157,24 +204,13 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   assert(!asked.radii.empty() && asked.smallest_gap >= 0);
   const auto& radii = asked.radii;
   const double gap = asked.smallest_gap, size = measure(domain, planes);
-  const auto [smallest, largest] = std::ranges::minmax(radii);
-  const bool are_equal = smallest == largest;
   const auto* box = std::get_if<BoxDomain>(&domain);
   const int dimension = box == nullptr ? 2 : static_cast<int>(box->dimension());
   const auto refuse = [&](const std::string& why) {
-    throw Error(ErrorKind::kBadInput,
-                "{} {} of {} with gaps of at least {} do not fit; they take {:.4g} of the {} "
-                "of the {} ({}); use fewer or smaller ones, or a smaller gap",
-                radii.size(), dimension == 2 ? "discs" : "spheres",
-                are_equal ? fmt::format("radius {}", largest)
-                          : fmt::format("radii {:.6g} to {:.6g}", smallest, largest),
-                gap, size_of(asked, dimension) / size, dimension == 2 ? "area" : "volume",
-                planes.empty() ? "domain" : "domain that the planes leave free", why);
+    throw_unfit(asked, dimension, size, !planes.empty(), why);
   };
-  // The largest particles are placed first. Particles of equal radius keep their order.
-  std::vector<std::size_t> order(radii.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&](auto i, auto j) { return radii[i] > radii[j]; });
+  // The largest particles are placed first.
+  const auto order = largest_first(radii);
   Asked falling{.domain = domain, .planes = planes, .radii = {}, .gap = gap, .fixed = {}};
   for (const auto k : order) falling.radii.push_back(radii[k]);
   for (std::size_t k = 0; k < present.count(); ++k)
@@ -182,16 +218,10 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   const auto places = falling.places();
   if (places.front().are_empty()) refuse("the domain is narrower than one of them with its gaps");
   for (std::size_t d = 0; d < places.front().dimension(); ++d)
-    if (places.front().period(d) > 0 && places.front().period(d) < 2 * largest + gap)
+    if (places.front().period(d) > 0 && places.front().period(d) < 2 * falling.radii.front() + gap)
       refuse("a period is shorter than one of them with its gap");
-  // Equal particles, enlarged by half of the gap, do not overlap. They therefore cover at most the
-  // fraction that the densest lattice (triangular, face-centred cubic) covers.
-  const double densest = !are_equal       ? 1
-                         : dimension == 2 ? 0.9068996821171089   // pi/sqrt(12)
-                                          : 0.7404804896930610;  // pi/sqrt(18)
-  double covered = 0;
-  for (const double radius : radii) covered += round_shape(dimension, radius + gap / 2).measure();
-  if (covered > densest * size) refuse("the densest lattice has no room for them");
+  if (covered(radii, gap, dimension) > densest_fraction(radii, dimension) * size)
+    refuse("the densest lattice has no room for them");
 
   SplitMix64 random(asked.seed);
   std::optional<PlacedParticles> placed;

@@ -22,6 +22,11 @@ struct Arrangement {
 /// 3.
 double size_of(const Arrangement& asked, int dimension);
 
+/// Gap [L] of particles in a domain of this `size` for which none is asked: a twentieth of the
+/// smallest radius, or less where the particles are so dense that, with half of it around them,
+/// they would cover more than the mean of what they cover and of what random packings cover.
+double default_gap(std::span<const double> radii, int dimension, double size);
+
 /// Places new particles in the domain, a disc or a box, on the free side of all `planes`, which
 /// count as walls. They are spheres if the box has three dimensions, otherwise discs. The particles
 /// in `present` stay where they are, whatever gaps they have. Returns the coordinates of the new

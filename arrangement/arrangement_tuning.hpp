@@ -7,6 +7,10 @@ namespace viscontact::particles {
 
 /// Free choices of random arrangements. Other values change the arrangements of seeds.
 struct ArrangementTuning {
+  // Gap over the smallest radius, if none is asked.
+  static constexpr double kGapOfRadius = 0.05;
+  // What random packings of equal discs or spheres cover, just below the densest that are found.
+  static constexpr double kPackedArea = 0.83, kPackedVolume = 0.635;
   // Least share of the region for centres in the domain; below it, random places would be found too
   // slowly.
   static constexpr double kLeastFraction = 1e-6;

@@ -142,7 +142,7 @@ PlacedParticles::Range PlacedParticles::range(const Level& level, std::size_t d,
   // A reach over the whole length may be too large for a 64-bit number.
   if (!(2 * half < static_cast<double>(n))) return all;
   // The sum is positive, so that the cast is the floor.
-  const double shift = static_cast<double>(2 * n);
+  const auto shift = static_cast<double>(2 * n);
   auto first = static_cast<std::int64_t>(at - half + shift) - 2 * n,
        last = static_cast<std::int64_t>(at + half + shift) - 2 * n;
   auto home = static_cast<std::int64_t>(at);

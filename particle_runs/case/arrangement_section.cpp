@@ -124,7 +124,7 @@ void arrangement_keys(case_file::Keys& keys, ArrangementKeys& asked, int dimensi
   keys.optional("smallest_gap", case_file::number(asked.smallest_gap, kNotNegative),
                 {"least gap of two of the particles (also across periodic sides), of one and "
                  "another particle, and of one and a wall or plane",
-                 "0.05 smallest radius"});
+                 "0.05 smallest radius, less near the densest packing"});
   keys.optional("seed", case_file::count(asked.seed, 0, std::numeric_limits<int>::max()),
                 {"the same seed gives the same arrangement, bit for bit on every machine"});
 }
@@ -168,8 +168,8 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
                   kLargestCount, kLargestCount);
   Arrangement asked{.radii = {}, .smallest_gap = keys.smallest_gap, .seed = keys.seed};
   for (const auto& particle : particles) asked.radii.push_back(particle.radius);
-  constexpr double kGapOfRadius = 0.05;  // a change alters the arrangements of seeds
-  if (asked.smallest_gap < 0) asked.smallest_gap = kGapOfRadius * std::ranges::min(asked.radii);
+  if (asked.smallest_gap < 0)
+    asked.smallest_gap = default_gap(asked.radii, p.dimension, measure(domain, planes));
   require_ids(section, key, p, particles.size());
   const auto centres =
       case_file::at_key(section, key, [&] { return arrange(asked, domain, p, planes); });

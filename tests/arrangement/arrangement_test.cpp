@@ -231,5 +231,20 @@ TEST(Arrangement, WhatDoesNotFitIsRefused) {
               Names("period"));
 }
 
+TEST(Arrangement, TheDefaultGapLeavesRoomForRandomPackings) {
+  const auto covered = [](double gap) {
+    return 500 * 4 * std::numbers::pi / 3 * std::pow(1 + gap / 2, 3);
+  };
+  const auto spheres = equal(500);
+  EXPECT_EQ(default_gap(spheres, 3, covered(0) / 0.5), kGap);
+  for (const double fraction : {0.56, 0.6, 0.62, 0.634}) {
+    const double size = covered(0) / fraction, gap = default_gap(spheres, 3, size);
+    // Radii and gap are of order one, so that rounding errors are some 1e-16.
+    EXPECT_NEAR(covered(gap) / size, (fraction + 0.635) / 2, 1e-14) << fraction;
+    EXPECT_LT(gap, kGap);
+  }
+  EXPECT_EQ(default_gap(spheres, 3, covered(0) / 0.64), 0);
+}
+
 }  // namespace
 }  // namespace viscontact::particles
