@@ -90,7 +90,7 @@ void print_order(const Sample& sample) {
     });
     if (alike >= (is_flat ? 4 : 7)) ++ordered;
   }
-  const double n = static_cast<double>(count);
+  const auto n = static_cast<double>(count);
   std::printf("  near %.2f, crystal %.3f, fabric", near / n, static_cast<double>(ordered) / n);
   for (std::size_t d = 0; d < sample.box.dimension(); ++d) std::printf(" %.3f", fabric[d] / near);
 }

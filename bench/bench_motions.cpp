@@ -111,6 +111,7 @@ std::vector<double> exact_loads(const PairLoads& exact, const freefem_axi::PairL
                        : of.group == MotionGroup::kAcross ? exact.transverse
                        : of.group == MotionGroup::kAround ? exact.spin
                                                           : exact.twofold;
+  if (of.sources_of_body == 0) return {};
   std::vector<double> loads(of.loads.size());
   for (std::size_t body = 0; body < of.bodies; ++body)
     for (std::size_t load = 0; load < of.loads_of_body; ++load)

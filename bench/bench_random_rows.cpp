@@ -20,7 +20,6 @@
 namespace viscontact {
 namespace {
 
-using freefem_axi::ExactRow;
 using freefem_axi::MotionGroup;
 using freefem_axi::Random;
 

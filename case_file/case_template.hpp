@@ -55,10 +55,10 @@ void read_title_and_units(const TomlSection& root, CaseType& c, bool needs_title
 /// read_root(root, c), which is declared beside CaseType, reads all other members, and throws
 /// Error(kBadInput) with the file, the line, the key, its value and what is allowed.
 template <class CaseType>
-CaseType case_of_root(const TomlSection& root, std::string text,
+CaseType case_of_root(const TomlSection& root, std::string_view text,
                       const std::filesystem::path& path) {
   CaseType c;
-  c.text = std::move(text);
+  c.text = text;
   c.path = path;
   read_root(root, c);
   return c;
@@ -74,8 +74,8 @@ std::vector<std::string_view> sections_with_defaults() {
 /// Throws the errors of case_of_root() and read_toml_file().
 template <class CaseType>
 CaseType read_case_file(const std::filesystem::path& path) {
-  auto file = read_toml_file(path);
-  return case_of_root<CaseType>(file.root, std::move(file.text), path);
+  const auto file = read_toml_file(path);
+  return case_of_root<CaseType>(file.root, file.text, path);
 }
 
 /// A case file that is read once, and from which many cases with other numbers are made. Several
