@@ -510,7 +510,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
 
 StepReport Simulation::step(double end) {
   const auto interval = grid_.next(state_, end);
-  if (!interval) return {.time = state_.time, .parts = 1};
+  if (!interval) return {.time = state_.time};
   const auto& p = state_.particles;
   StepReport report{.time = interval->end};
   stages_ = {};

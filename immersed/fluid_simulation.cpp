@@ -463,7 +463,7 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
 
 StepReport FluidSimulation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
-  if (!interval) return {.time = state_.time, .parts = 1};
+  if (!interval) return {.time = state_.time};
   StepReport report{.time = interval->end};
   begin_flow(interval->h);
   auto motion = solve(interval->h, interval->end, state_.steps == 0 || interval->reaches_end);

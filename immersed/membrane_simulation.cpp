@@ -364,7 +364,7 @@ void MembraneSimulation::Implementation::remember(StepContacts contacts, double 
 
 StepReport MembraneSimulation::Implementation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
-  if (!interval) return {.time = state_.time, .parts = 1};
+  if (!interval) return {.time = state_.time};
   const auto began = std::chrono::steady_clock::now();
   const double h = interval->h;
   const auto now = places(state_.particles.positions);

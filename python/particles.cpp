@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -294,6 +295,8 @@ void add_rheology(py::module_& module) {
   rheology.def("__repr__", [](const Rheology& row) {
     if (row.shear_rate == 0)
       return fmt::format("<viscontact.Rheology strain {}, at rest>", row.strain);
+    if (!std::isfinite(row.viscosity))
+      return fmt::format("<viscontact.Rheology strain {}, without a box>", row.strain);
     return fmt::format("<viscontact.Rheology strain {}, viscosity {}, n1 {}, n2 {}>", row.strain,
                        row.viscosity, row.n1, row.n2);
   });

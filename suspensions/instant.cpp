@@ -26,10 +26,9 @@ double power(const std::vector<Motion>& loads, const std::vector<Motion>& motion
 class Solver {
  public:
   Solver(const InstantProblem& problem, double tolerance)
-      : problem_(problem),
-        tolerance_(tolerance),
-        preconditioner_(problem.system->resistance(), *problem.pool),
-        gradients_(*problem.pool) {}
+      : problem_(problem), tolerance_(tolerance), gradients_(*problem.pool) {
+    preconditioner_.set(problem.system->resistance(), *problem.pool);
+  }
 
   /// Solves for the forces `loads` and `rate` times the flow.
   std::vector<Motion> solve(const std::vector<Motion>& loads, double rate,
@@ -84,7 +83,7 @@ class Solver {
     system.subtract_strain_loads(strain, of_strain);
     const double dissipation = power(loads, motions) - power(of_strain, motions) +
                                system.stresslets(motions, strain).contracted(strain);
-    return tolerance_ * tolerance_ * problem_.softest * dissipation;
+    return tolerance_ * tolerance_ * problem_.least_resistance * dissipation;
   }
 
   const InstantProblem& problem_;

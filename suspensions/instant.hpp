@@ -15,12 +15,12 @@ struct InstantProblem {
   const PairSystem* system = nullptr;
   SymmetricTensor strain;  ///< E of the flow of rate 1 [1/T]
   double viscosity = 0, volume = 0;
-  std::vector<Motion> loads;     ///< forces and torques on the spheres
-  SymmetricTensor load_stress;   ///< of the forces of pairs among them
-  std::optional<double> stress;  ///< sigma_xy; without it the rate is 1
+  std::vector<Motion> loads;       ///< forces and torques on the spheres
+  SymmetricTensor load_stress{};   ///< of the forces of pairs among them
+  std::optional<double> stress{};  ///< sigma_xy; without it the rate is 1
   /// What the softest motion resists over what a sphere resists beside others that are at rest [1]:
   /// the factor by which residuals must be smaller than errors.
-  double softest = 1;
+  double least_resistance = 1;
   ThreadPool* pool = nullptr;
 };
 

@@ -2,78 +2,65 @@
 #include "viscontact/suspensions/setting_checks.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <optional>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/steps/step_times.hpp"
+#include "viscontact/particles/setting/lubrication_faults.hpp"
 
 namespace viscontact::particles {
 namespace {
 
 // Overlap at the start, in mean radii, that counts as rounding errors of a file.
 constexpr double kMostStartOverlap = 1e-6;
+// Relative difference of rates that counts as rounding errors of one number.
+constexpr double kRoundedRate = 1e-12;
 
-void check_cell(const Setting& setting, double pair_length) {
-  const auto& lubrication = *setting.lubrication;
-  const auto periods = periods_of(setting.domain);
-  for (const double period : periods)
-    if (period > 0 && period < 2 * pair_length)
-      throw Error(
-          ErrorKind::kBadInput,
-          "the period {} is too short for the range of lubrication: it must be at least {}, "
-          "twice the largest distance of a pair",
-          period, 2 * pair_length);
-  double before = 0;
-  const double least_piece = StepGrid::least_piece(setting.time_step);
-  for (const auto& piece : lubrication.pieces) {
-    if (!(piece.until - before >= least_piece))
-      throw Error(ErrorKind::kBadInput,
-                  "a piece of the flow is {:.6g} long; it must be at least {:.6g} long, because "
-                  "steps pass by a shorter one",
-                  piece.until - before, least_piece);
-    before = piece.until;
-  }
-  if (lubrication.inertia && !accelerates_images_alike(lubrication, setting.domain))
-    throw Error(
-        ErrorKind::kBadInput,
-        "spheres with inertia move otherwise than their images, because the fluid "
-        "accelerates otherwise there; along a period the flow must be at rest or a shear of "
-        "constant rate");
-  if (lubrication.offset != 0 && periods[1] > 0 && !(periods[0] > 0))
-    throw Error(ErrorKind::kBadInput, "an offset of images across y needs a period along x");
-  if (strains_cell(lubrication, setting.domain)) {
-    if (!setting.planes.empty())
-      throw Error(ErrorKind::kBadInput, "a cell with planes can only be sheared along x, across y");
-    return;
-  }
-  const auto check_flow = [&](const std::array<Vector, 3>& gradient) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        if (periods[j] > 0 && gradient[i][j] != 0 && !(i == 0 && j == 1))
-          throw Error(ErrorKind::kBadInput,
-                      "the flow changes along a periodic axis; only a velocity along x may change, "
-                      "along y, unless there are three periods");
-    if (periods[1] > 0 && !(periods[0] > 0) && gradient[0][1] != 0)
-      throw Error(ErrorKind::kBadInput, "a shear flow with a period along y needs one along x");
-  };
-  check_flow(lubrication.gradient);
-  for (const auto& piece : lubrication.pieces) check_flow(piece.gradient);
-}
-
-void check_stress(const Setting& setting) {
-  const auto& lubrication = *setting.lubrication;
-  if (lubrication.stress && lubrication.inertia)
-    throw Error(ErrorKind::kBadInput, "with inertia the rate must be given, and not the stress");
-  if (lubrication.stress && !obstacles_of(setting).empty())
-    throw Error(ErrorKind::kBadInput,
-                "beside walls and planes the rate must be given, and not the stress");
+void require_none(const std::optional<SettingFault>& fault) {
+  if (fault) throw Error(ErrorKind::kBadInput, "{} {}", fault->key, fault->message);
 }
 
 }  // namespace
 
 void check_setting(const Setting& setting, double pair_length) {
-  check_cell(setting, pair_length);
-  check_stress(setting);
+  const auto& lubrication = *setting.lubrication;
+  const auto& domain = setting.domain;
+  require_none(fault_of_periods(domain, pair_length));
+  double before = 0;
+  for (const auto& piece : lubrication.pieces) {
+    require_none(fault_of_piece(piece.until - before, setting.time_step));
+    before = piece.until;
+  }
+  require_none(fault_of_inertia(lubrication, domain));
+  const auto periods = periods_of(domain);
+  if (lubrication.offset != 0 && periods[1] > 0 && !(periods[0] > 0))
+    throw Error(ErrorKind::kBadInput, "an offset of images across y needs a period along x");
+  require_none(fault_of_flow(lubrication, domain));
+  require_none(fault_of_stress(lubrication, !obstacles_of(domain).empty()));
+  if (!setting.planes.empty()) require_none(fault_of_planes(lubrication, domain));
+}
+
+void check_flow_before(const Setting& setting, const State& state) {
+  const auto& lubrication = *setting.lubrication;
+  const bool is_new = state.steps == 0;
+  if (!lubrication.inertia || is_new) return;
+  const auto periods = periods_of(setting.domain);
+  const auto flow = lubrication.flow_at(state.time);
+  const double factor = lubrication.factor(state.time, state.time);
+  const auto& before = state.shear.gradient;
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (!(periods[j] > 0)) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double now = factor * flow.gradient[i][j];
+      if (std::abs(now - before[i][j]) <= kRoundedRate * std::abs(now)) continue;
+      throw Error(ErrorKind::kBadInput,
+                  "the velocity along {} changes along {} with the rate {:.6g}, and with {:.6g} in "
+                  "the run that this one continues; spheres with inertia keep their velocities, "
+                  "which would not be those of their images; along a period the flow must go on "
+                  "as it was",
+                  "xyz"[i], "xyz"[j], now, before[i][j]);
+    }
+  }
 }
 
 void check_spheres(const Setting& setting, const Particles& particles, double smallest_gap) {

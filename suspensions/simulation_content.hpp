@@ -44,7 +44,7 @@ struct SuspensionTuning {
   // Overlap that no step leaves, in mean radii: half of what is allowed.
   static constexpr double kMostOverlap = 5e-8;
   // A step that is not solved is taken in half of its length, and so on. If only the stress or
-  // Coulomb's law are not right, the last part is taken after fewer halvings. The spheres jam if
+  // Coulomb's law are not right, a part is taken after fewer halvings. The spheres jam if
   // there is no solution after the last halving, or none that obeys Coulomb's law in so many steps
   // one after the other. At the edge of jamming up to 5 follow each other.
   static constexpr int kMostHalvings = 7, kMostForFriction = 3, kMostUnsolved = 20;
@@ -71,7 +71,7 @@ struct SuspensionSimulation::Content {
   std::optional<double> stress;  // of the last step, if it is given
   double mean_radius = 1, volume = 0;
   std::optional<suspensions::StrainedLattice> lasting;  // if the periods of the state are its
-  double sense = 1;  // of the net strain of the state, in the direction of `lasting`
+  double strain_sign = 1;  // of the net strain of the state, in the direction of `lasting`
   std::vector<suspensions::PlaneBody> planes;
   std::vector<double> radii;  // of all bodies, the planes after the spheres
   Rheology rheology;
@@ -199,7 +199,7 @@ struct SuspensionSimulation::Content {
   /// repulsion and are listed only because they may come near in a step.
   bool is_in_range(const NearPair& pair) const {
     const auto sizes = sizes_of(pair);
-    return norm(pair.apart) < sizes.touching + lubrication().range * sizes.mean;
+    return norm(pair.apart) < sizes.contact_distance + lubrication().range * sizes.mean;
   }
   suspensions::PairSizes sizes_of(const NearPair& pair) const {
     return suspensions::sizes_of(radii[index_of(pair.first)], radii[index_of(pair.second)]);
@@ -216,7 +216,7 @@ struct SuspensionSimulation::Content {
       const double distance = norm(pair.apart);
       if (!is_in_range(pair)) continue;
       const double force =
-          amplitude * sizes.reduced * std::exp(-(distance - sizes.touching) / length);
+          amplitude * sizes.reduced * std::exp(-(distance - sizes.contact_distance) / length);
       const auto push = suspensions::lanes_of((force / distance) * pair.apart);
       loads[i].along -= push;
       loads[j].along += push;
@@ -248,7 +248,7 @@ struct SuspensionSimulation::Content {
   double smallest_gap(const std::vector<NearPair>& pairs) const {
     double smallest = std::numeric_limits<double>::infinity();
     for (const auto& pair : pairs)
-      smallest = std::min(smallest, norm(pair.apart) - sizes_of(pair).touching);
+      smallest = std::min(smallest, norm(pair.apart) - sizes_of(pair).contact_distance);
     return smallest;
   }
 
@@ -276,6 +276,27 @@ struct SuspensionSimulation::Content {
   void check_images() const;
   void move(const suspensions::StepSolution& solution, double h);
   void remember(const std::vector<suspensions::ContactMemory>& contacts, double h);
+
+  /// The length [T] of the first trial of a step whose whole length is `whole`.
+  double first_length(double whole) const;
+  // Whether the last step, or the one whose rest it was, was halved because it was not solved, and
+  // is not short because a run or a piece of the flow ended. Follows from the state.
+  bool follows_a_halved_step() const;
+  // Throws Error(kNotConverged) after too many steps in which Coulomb's law is not right.
+  void check_unsolved() const;
+  // Sets the flow of a step. Returns motions near its solution.
+  std::vector<Motion> start_of_step(double h);
+  struct MovedStep {
+    suspensions::StepSolution solution{};
+    double h = 0, overlap = 0;  // [T], [L]
+    std::size_t pairs_in_range = 0;
+    int iterations = 0, solutions = 0;  // of all trials
+  };
+  /// Moves the spheres by a step of the length `whole` [T] or, if it is not solved, by its half and
+  /// so on. Throws Error(kNotConverged), with the state as it was, if no length has a solution.
+  MovedStep move_by_step(double whole);
+  void set_rheology(const suspensions::StepSolution& solution, std::size_t pairs_in_range,
+                    int solutions);
 };
 
 }  // namespace viscontact::particles

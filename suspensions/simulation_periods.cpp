@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/suspensions/cell/lattice_fault.hpp"
 #include "viscontact/suspensions/simulation_content.hpp"
 
 namespace viscontact::particles {
@@ -45,8 +46,8 @@ void SuspensionSimulation::Content::find_lasting(const FlowPath& path) {
     auto direction = path.direction;
     for (auto& row : direction) row = sign * row;
     const suspensions::StrainedLattice lattice(periods_of(setting.domain), direction, true);
-    sense = sign * path.sense;
-    const double t = sense * state.shear.net_strain;
+    strain_sign = sign * path.sign;
+    const double t = strain_sign * state.shear.net_strain;
     if (lattice.kind() == suspensions::StrainedLattice::Kind::kAsTheBox || t < lattice.earliest() ||
         !suspensions::are_same(lattice.at(t), state.shear.periods))
       continue;
@@ -57,19 +58,9 @@ void SuspensionSimulation::Content::find_lasting(const FlowPath& path) {
 
 void SuspensionSimulation::Content::check_lasting(double back) const {
   if (!lasting) return;
-  const double needed = 2 * largest_distance(lubrication(), state.particles);
-  const double least = lasting->least_height();
-  if (least < needed)
-    throw Error(ErrorKind::kBadInput,
-                "the box is too small for this extension: opposite faces of its strained cell "
-                "come as near as {:.6g}, and must stay {:.6g} apart, twice the largest distance "
-                "of a pair; the edges must be at least {:.3g} times as long",
-                least, needed, needed / least);
-  if (lasting->least_height(back) < needed)
-    throw Error(ErrorKind::kBadInput,
-                "the flow goes back by the strain {:.6g} beyond its start, where opposite faces of "
-                "the strained cell come nearer than {:.6g}, twice the largest distance of a pair",
-                -back, needed);
+  const double pair_length = largest_distance(lubrication(), state.particles);
+  if (const auto fault = suspensions::fault_of_lattice(*lasting, pair_length, back))
+    throw Error(ErrorKind::kBadInput, "{} {}", fault->key, fault->message);
 }
 
 void SuspensionSimulation::Content::turn_box(const suspensions::Matrix& turn) {
@@ -86,7 +77,7 @@ void SuspensionSimulation::Content::check_images() const {
   if (!state.shear.has_periods()) return;
   const double least = cell().least_height();
   const double needed = 2 * largest_distance(lubrication(), state.particles);
-  if (lasting && sense * state.shear.net_strain < lasting->earliest())
+  if (lasting && strain_sign * state.shear.net_strain < lasting->earliest())
     throw Error(ErrorKind::kNotConverged,
                 "the flow has reversed too far beyond its start at t = {:.6g}, the net strain "
                 "{:.6g}; {}",
@@ -108,7 +99,7 @@ void SuspensionSimulation::Content::move_periods(double h) {
     shear.offset = cell().moved_offset(h * gradient_now()[0][1] * periods_of(setting.domain)[1]);
     return;
   }
-  shear.periods = lasting ? lasting->at(sense * shear.net_strain)
+  shear.periods = lasting ? lasting->at(strain_sign * shear.net_strain)
                           : suspensions::carried_lattice(gradient_now(), h, shear.periods);
 }
 

@@ -35,11 +35,14 @@ suspensions::InstantSolution SuspensionSimulation::Content::solve_instant() {
   const suspensions::PairSystem system(
       lubrication(), radii,
       suspensions::placed(pairs, radii, SuspensionTuning::kLeastGap * mean_radius), *pool);
-  suspensions::InstantProblem problem{
-      &system, given_strain, lubrication().viscosity, volume, given_loads(state.time, state.time),
-      {},      stress};
-  problem.pool = pool.get();
-  problem.softest = std::min(lubrication().drag, 1.0);
+  suspensions::InstantProblem problem{.system = &system,
+                                      .strain = given_strain,
+                                      .viscosity = lubrication().viscosity,
+                                      .volume = volume,
+                                      .loads = given_loads(state.time, state.time),
+                                      .stress = stress,
+                                      .least_resistance = std::min(lubrication().drag, 1.0),
+                                      .pool = pool.get()};
   problem.load_stress = add_repulsion(pairs, problem.loads).stress;
   suspensions::InstantSolution solution;
   if (lubrication().inertia) {
@@ -87,6 +90,7 @@ SuspensionSimulation::SuspensionSimulation(Setting setting, State state, int thr
   content.radii = content.particles().radii;
   content.radii.resize(content.radii.size() + content.planes.size(),
                        std::numeric_limits<double>::infinity());
+  check_flow_before(content.setting, content.state);
   if (content.state.steps == 0 && content.state.time == 0 && !content.state.shear.has_periods()) {
     content.state.shear = {};
     content.state.shear.offset = content.cell().moved_offset(content.lubrication().offset);
@@ -115,13 +119,17 @@ std::span<double> SuspensionSimulation::added_torques() {
 
 const Rheology& SuspensionSimulation::solve_instant() {
   if (!content_->solve_instant().converged)
-    throw Error(ErrorKind::kNotConverged, "the velocities of the suspension have not converged");
+    throw Error(ErrorKind::kNotConverged,
+                "the velocities of the suspension at t = {:.6g} have not converged; its smallest "
+                "gap is {:.3g}: with a regularisation the films of such gaps resist less",
+                content_->state.time, content_->rheology.smallest_gap);
   content_->has_instant = true;
   return content_->rheology;
 }
 
 std::vector<suspensions::ContactMemory> SuspensionSimulation::Content::memories(double h) const {
   std::vector<suspensions::ContactMemory> result;
+  result.reserve(state.pairs.size() + state.walls.size());
   const double before = state.earlier_step > 0 ? 1 / state.earlier_step : 0;
   const auto add = [&](const Pair& pair, std::int32_t first, std::int32_t second, double sign) {
     suspensions::ContactMemory memory{first, second};
@@ -143,13 +151,15 @@ void SuspensionSimulation::Content::move(const suspensions::StepSolution& soluti
   const auto& motions = solution.motions;
   auto& p = particles();
   const auto now = gradient_now();
+  const auto carries = suspensions::matrix_of(suspensions::carried, now, h);
+  const auto mean = suspensions::matrix_of(suspensions::mean_carried, now, h);
   const auto velocities = p.velocities, angular_velocities = p.angular_velocities;
   for (std::size_t k = 0; k < p.count(); ++k) {
     const Vector v = suspensions::vector_of(motions[k].along);
-    const Vector x =
-        suspensions::carried(now, h, p.position(k)) + h * suspensions::mean_carried(now, h, v);
+    const Vector x = suspensions::times(carries, p.position(k)) + h * suspensions::times(mean, v);
     std::ranges::copy(x, &p.positions[3 * k]);
   }
+  state.shear.gradient = now;
   strain_by(h);
   move_periods(h);
   const auto unwrapped = p.positions;
@@ -188,12 +198,14 @@ void SuspensionSimulation::Content::strain_by(double h) {
 void SuspensionSimulation::Content::add_inertia(suspensions::StepProblem& problem) const {
   const auto& p = state.particles;
   const auto& gradient_of_step = problem.gradient;
-  const double h = problem.h;
   const Vector rotation = suspensions::rotation_of(gradient_of_step);
+  const auto mean = suspensions::matrix_of(suspensions::mean_carried, gradient_of_step, problem.h);
   for (std::size_t k = 0; k < p.count(); ++k) {
-    const Vector x = p.position(k), last = suspensions::vector_of(problem.motions[k].along);
-    const Vector flow = (1 / h) * (suspensions::carried(gradient_of_step, h, x) - x) +
-                        suspensions::mean_carried(gradient_of_step, h, last) - last;
+    const Vector last = suspensions::vector_of(problem.motions[k].along);
+    // The flow moves x by exp(h G) x - x = h G (mean x).
+    const Vector flow =
+        suspensions::times(gradient_of_step, suspensions::times(mean, p.position(k))) +
+        suspensions::times(mean, last) - last;
     suspensions::SphereInertia inertia{p.masses[k], p.inertias[k]};
     inertia.start.along = suspensions::lanes_of(p.velocity(k) - flow);
     inertia.start.turn =
@@ -206,6 +218,7 @@ void SuspensionSimulation::Content::remember(
     const std::vector<suspensions::ContactMemory>& contacts, double h) {
   const auto cell_now = cell();
   std::vector<Pair> pairs, walls;
+  pairs.reserve(contacts.size());
   PairMemories memories_now;
   const auto spheres = static_cast<std::int32_t>(state.particles.count());
   for (const auto& contact : contacts) {
@@ -262,6 +275,11 @@ suspensions::StepSolution SuspensionSimulation::Content::solve_step(double h,
   if (lubrication().inertia) add_inertia(problem);
   auto repulsion = add_repulsion(pairs, problem.loads);
   problem.pairs = std::move(pairs);
+  const auto is_zero = [](const Motion& load) {
+    return suspensions::dot(load.along, load.along) == 0 &&
+           suspensions::dot(load.turn, load.turn) == 0;
+  };
+  if (std::ranges::all_of(problem.loads, is_zero)) problem.loads = std::vector<Motion>();
   if (stress) {
     auto& given = problem.stress.emplace();
     given.gradient = gradient;
@@ -280,6 +298,113 @@ suspensions::StepSolution SuspensionSimulation::Content::solve_step(double h,
   return solution;
 }
 
+double SuspensionSimulation::Content::first_length(double whole) const {
+  if (!setting.laws.friction || !follows_a_halved_step()) return whole;
+  double h = whole;
+  while (h > SuspensionTuning::kMostGrowth * state.earlier_step) h /= 2;
+  return h;
+}
+
+bool SuspensionSimulation::Content::follows_a_halved_step() const {
+  if (!(state.earlier_step > 0)) return false;
+  const double tiny = StepGrid::tiny(setting.time_step);
+  const auto jumps = jump_times(setting);
+  const auto is_jump = [&](double time) {
+    return std::ranges::any_of(jumps, [&](double jump) { return std::abs(jump - time) <= tiny; });
+  };
+  const auto since = static_cast<double>(state.steps - state.grid_step);
+  const bool is_on_grid =
+      std::abs(state.grid_time + since * setting.time_step - state.time) <= tiny;
+  if (!is_on_grid) return !is_jump(state.time);
+  // The rest of a halved step ends on the grid, too, but not where a run ended or the flow changed.
+  return since > 0 && state.earlier_step < setting.time_step - tiny &&
+         !is_jump(state.time - state.earlier_step);
+}
+
+void SuspensionSimulation::Content::check_unsolved() const {
+  if (unsolved < SuspensionTuning::kMostUnsolved) return;
+  throw Error(ErrorKind::kNotConverged,
+              "the spheres jam at t = {:.6g}, the strain {:.6g}: no motion was found that obeys "
+              "Coulomb's law in {} steps one after the other; use a smaller volume fraction, less "
+              "friction, or a shorter step",
+              state.time, state.shear.strain, unsolved);
+}
+
+std::vector<Motion> SuspensionSimulation::Content::start_of_step(double h) {
+  restore_flow();
+  const auto stress_before = stress;
+  const auto strain_before = strain_now();
+  auto motions = relative_motions();
+  set_flow(state.time, state.time + h);
+  // With inertia the motions at the start are given, relative to the new flow.
+  if (lubrication().inertia) motions = relative_motions();
+  // Motions of a suspension at another rate are nearly proportional to it.
+  const double change = stress && stress_before
+                            ? change_of(*stress * *stress_before, *stress_before * *stress_before)
+                            : change_of(strain_now().contracted(strain_before),
+                                        strain_before.contracted(strain_before));
+  if (stress) state.shear.rate *= change;
+  if (change != 1 && !lubrication().inertia)
+    for (auto& motion : motions) {
+      motion.along *= change;
+      motion.turn *= change;
+    }
+  return motions;
+}
+
+void SuspensionSimulation::Content::set_rheology(const suspensions::StepSolution& solution,
+                                                 std::size_t pairs_in_range, int solutions) {
+  rheology = {.time = state.time, .strain = state.shear.strain};
+  rheology.net_strain = state.shear.net_strain;
+  rheology.pairs = pairs_in_range;
+  rheology.contacts = solution.touching;
+  rheology.smallest_gap = solution.smallest_gap;
+  rheology.dissipation = solution.dissipation;
+  suspensions::set_stresses(solution.stresses, strain_now(), solution.least_rate,
+                            lubrication().viscosity, volume, rheology);
+  set_sign(rheology);
+  rheology.solutions = solutions;
+}
+
+SuspensionSimulation::Content::MovedStep SuspensionSimulation::Content::move_by_step(double whole) {
+  const auto start = state.shear;
+  const double allowed = std::max(largest_overlap(), SuspensionTuning::kMostOverlap * mean_radius);
+  const double first = first_length(whole);
+  // After a step that was even shorter, lengths down to its own are tried.
+  const double shortest = std::ldexp(whole, -SuspensionTuning::kMostHalvings);
+  const double least = first < whole ? std::min(shortest, state.earlier_step) : shortest;
+  const double most_for_friction = std::ldexp(whole, -SuspensionTuning::kMostForFriction);
+  MovedStep step;
+  for (step.h = first; step.h >= least; step.h /= 2) {
+    // The first trial has to obey Coulomb's law.
+    const bool takes_given_bounds = step.h <= most_for_friction && step.h < first;
+    auto motions = start_of_step(step.h);
+    auto pairs = find_pairs(search_range(step.h, motions));
+    step.pairs_in_range = static_cast<std::size_t>(
+        std::ranges::count_if(pairs, [&](const NearPair& pair) { return is_in_range(pair); }));
+    step.solution = solve_step(step.h, std::move(pairs), std::move(motions), takes_given_bounds);
+    const auto& solution = step.solution;
+    step.iterations += solution.iterations;
+    step.solutions += solution.solutions;
+    const bool is_taken = solution.is_solved && std::isfinite(solution.dissipation) &&
+                          (solution.converged || takes_given_bounds);
+    if (is_taken) {
+      suspensions::check_plane_motions(setting, gradient_now(), state.time, state.time + step.h);
+      auto not_moved = state;
+      move(solution, step.h);
+      step.overlap = largest_overlap();
+      if (step.overlap <= allowed) return step;
+      state = std::move(not_moved);
+    }
+    state.shear = start;
+  }
+  restore_flow();
+  throw Error(ErrorKind::kNotConverged,
+              "the spheres jam at t = {:.6g}, the strain {:.6g}: a step of {:.3g} has no "
+              "solution; use a smaller volume fraction, less friction, or a shorter step",
+              state.time, start.strain, 2 * step.h);
+}
+
 StepReport SuspensionSimulation::step(double end) {
   auto& content = *content_;
   auto& state = content.state;
@@ -288,96 +413,34 @@ StepReport SuspensionSimulation::step(double end) {
   const auto interval = content.grid().next(state, end);
   if (!interval) return report;
   content.check_images();
+  content.check_unsolved();
+  // The first step begins with these velocities, whatever their error.
   if (state.steps == 0 && !content.has_instant) content.solve_instant();
   content.has_instant = false;
-  content.restore_flow();
-  const State start = state;
-  const auto before = content.relative_motions();
-  const auto stress_before = content.stress;
-  const auto strain_before = content.strain_now();
-  const double allowed =
-      std::max(content.largest_overlap(), SuspensionTuning::kMostOverlap * content.mean_radius);
-  double h = interval->h;
-  suspensions::StepSolution solution;
-  std::size_t pairs_in_range = 0;
-  int solutions = 0, halvings = 0;
-  while (content.setting.laws.friction && state.earlier_step > 0 &&
-         h > SuspensionTuning::kMostGrowth * state.earlier_step &&
-         halvings < SuspensionTuning::kMostHalvings) {
-    h /= 2;
-    ++halvings;
-  }
-  for (;; ++halvings, h /= 2) {
-    if (halvings > SuspensionTuning::kMostHalvings ||
-        content.unsolved >= SuspensionTuning::kMostUnsolved)
-      throw Error(ErrorKind::kNotConverged,
-                  "the spheres jam at t = {:.6g}, the strain {:.6g}: a step of {:.3g} has no "
-                  "solution; use a smaller volume fraction, less friction, or a shorter step",
-                  start.time, start.shear.strain, 2 * h);
-    state = start;
-    content.set_flow(state.time, state.time + h);
-    // With inertia the motions at the start are given, relative to the new flow.
-    const bool has_inertia = content.lubrication().inertia;
-    auto motions = has_inertia ? content.relative_motions() : before;
-    // Motions of a suspension at another rate are nearly proportional to it.
-    const double change =
-        content.stress && stress_before
-            ? change_of(*content.stress * *stress_before, *stress_before * *stress_before)
-            : change_of(content.strain_now().contracted(strain_before),
-                        strain_before.contracted(strain_before));
-    if (content.stress) state.shear.rate *= change;
-    if (change != 1 && !has_inertia)
-      for (auto& motion : motions) {
-        motion.along *= change;
-        motion.turn *= change;
-      }
-    auto pairs = content.find_pairs(content.search_range(h, motions));
-    pairs_in_range = static_cast<std::size_t>(std::ranges::count_if(
-        pairs, [&](const NearPair& pair) { return content.is_in_range(pair); }));
-    solution = content.solve_step(h, std::move(pairs), std::move(motions),
-                                  halvings >= SuspensionTuning::kMostForFriction);
-    report.iterations += solution.iterations;
-    solutions += solution.solutions;
-    if (!solution.is_solved || !std::isfinite(solution.dissipation)) continue;
-    if (!solution.converged && halvings < SuspensionTuning::kMostForFriction) continue;
-    suspensions::check_plane_motions(content.setting, content.gradient_now(), start.time,
-                                     start.time + h);
-    content.move(solution, h);
-    report.largest_overlap = content.largest_overlap();
-    if (report.largest_overlap <= allowed) break;
-  }
-  report.largest_overlap /= content.mean_radius;
+  const auto moved = content.move_by_step(interval->h);
+  const auto& solution = moved.solution;
   report.parts = 1;
+  report.iterations = moved.iterations;
   report.contacts = solution.touching;
   report.residual = solution.residual;
   report.converged = solution.converged;
   if (!report.converged) report.excess = std::numeric_limits<double>::infinity();
   report.has_given_loads = solution.has_given_loads;
+  report.largest_overlap = moved.overlap / content.mean_radius;
   content.unsolved = solution.has_given_loads ? content.unsolved + 1 : 0;
   auto taken = *interval;
-  if (halvings > 0) {
+  if (moved.h < interval->h) {
     // The next step goes on to the same point of the grid.
-    taken.h = h;
-    taken.end = state.time + h;
+    taken.h = moved.h;
+    taken.end = state.time + moved.h;
     taken.new_grid = interval->end - content.setting.time_step;
   }
-  content.remember(solution.contacts, h);
+  content.remember(solution.contacts, moved.h);
   state.time = taken.end;
-  state.earlier_step = h;
+  state.earlier_step = moved.h;
   StepGrid::count(state, taken);
   report.time = state.time;
-
-  auto& rheology = content.rheology;
-  rheology = {.time = state.time, .strain = state.shear.strain};
-  rheology.net_strain = state.shear.net_strain;
-  rheology.pairs = pairs_in_range;
-  rheology.contacts = solution.touching;
-  rheology.smallest_gap = solution.smallest_gap;
-  rheology.dissipation = solution.dissipation;
-  suspensions::set_stresses(solution.stresses, content.strain_now(), solution.least_rate,
-                            content.lubrication().viscosity, content.volume, rheology);
-  content.set_sign(rheology);
-  rheology.solutions = solutions;
+  content.set_rheology(solution, moved.pairs_in_range, moved.solutions);
   return report;
 }
 

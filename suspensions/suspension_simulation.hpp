@@ -19,9 +19,13 @@ class SuspensionSimulation : public ParticleSimulation {
  public:
   /// `setting` has PairLubrication and no fluid. `state` is that of a restart file, or a state of
   /// which only the particles, which turn, are set. Throws Error(kBadInput) if a period is too
-  /// short for the range of a pair, if the flow does not carry the images of spheres or does not
-  /// stick to a wall or plane, if motions are given, if spheres overlap, or if one has no mass with
-  /// inertia. The results have the same bits for any number of `threads`.
+  /// short for the range of a pair, at the start or while the flow strains the box, if the flow
+  /// does not carry the images of spheres or does not stick to a wall or plane, if a piece of it is
+  /// shorter than StepGrid::least_piece(), if a stress is given beside inertia, walls or planes, if
+  /// spheres with inertia would move otherwise than their images, also because the run before had
+  /// another shear, if motions are given, if spheres overlap, or if one has no mass with inertia.
+  /// Throws Error(kNotConverged) if the run before has brought images of spheres too near. The
+  /// results have the same bits for any number of `threads`.
   SuspensionSimulation(Setting setting, State state, int threads);
   ~SuspensionSimulation() override;
   SuspensionSimulation(SuspensionSimulation&&) noexcept;

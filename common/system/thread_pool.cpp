@@ -100,6 +100,8 @@ ThreadPool::~ThreadPool() {
   for (auto& thread : workers_->threads) thread.join();
 }
 
+std::size_t ThreadPool::threads() const { return workers_ ? workers_->parts.size() : 1; }
+
 void ThreadPool::run(std::size_t blocks, const std::function<void(std::size_t)>& body) {
   if (!workers_) {
     for (std::size_t block = 0; block < blocks; ++block) body(block);

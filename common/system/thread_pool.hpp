@@ -24,6 +24,7 @@ class ThreadPool {
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
+  std::size_t threads() const;  ///< with the calling one
 
   /// Indices in a block. Another number changes sums in their last digits. In the loops of the
   /// solver of a particle step (docs/particles.md) a block is about 0.1 ms of work; for less work,

@@ -40,17 +40,9 @@ struct SweepTuning {
   static constexpr double kPartOfLeft = 0.3;
 };
 
-using Vector [[gnu::vector_size(32)]] = double;
-
-inline double dot(const Vector& a, const Vector& b) {
-  const Vector c = a * b;
-  return c[0] + c[1] + c[2];
-}
-
-inline Vector cross(const Vector& a, const Vector& b) {
-  return __builtin_shufflevector(a, a, 1, 2, 0, 3) * __builtin_shufflevector(b, b, 2, 0, 1, 3) -
-         __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
-}
+using Vector = Lanes;
+using viscontact::cross;
+using viscontact::dot;
 
 template <int D>
 Vector along(const Motion<D>& motion) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "viscontact/common/lanes.hpp"
 #include "viscontact/contact_solver/problem/constraint_problem.hpp"
 
 namespace viscontact::contact_solver {
@@ -46,21 +47,18 @@ class AcceleratedSweeps {
   int sweep(const SweepPlan& plan);
 
  private:
-  // x, y, z and 0 in one register. Discs have impulses in the plane and turn about z.
-  using Vector [[gnu::vector_size(32)]] = double;
-  // GCC's alignof(Vector), by which memory is allocated, is less without AVX; its code for AVX, in
-  // by_fastest_instructions(), takes this alignment for granted.
-  static constexpr std::size_t kAlignment = sizeof(Vector);
-  struct alignas(kAlignment) Unit {
+  // Discs have impulses in the plane and turn about z.
+  using Vector = Lanes;
+  struct alignas(kLaneAlignment) Unit {
     Vector moved{};   // [L]
     Vector turned{};  // [rad]
     double mobility = 0, turn_mobility = 0;
   };
-  struct alignas(kAlignment) Impulse {
+  struct alignas(kLaneAlignment) Impulse {
     Vector tangential{};  // [M L/T]
     double normal = 0;    // [M L/T]
   };
-  struct alignas(kAlignment) RoundContact {
+  struct alignas(kLaneAlignment) RoundContact {
     Vector normal{};  // the first unit moves along it if it is pushed
     Vector offset{};  // gap along the normal, and slip across, if no unit moves [L]
     Impulse x, y;     // after the last sweep, and where the next one begins

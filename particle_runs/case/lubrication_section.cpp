@@ -6,8 +6,9 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/motions/fitted_pairs.hpp"
 #include "viscontact/particle_runs/case/particles_sections.hpp"
+#include "viscontact/particles/setting/lubrication_faults.hpp"
 #include "viscontact/particles/setting/plane_beside_flow.hpp"
-#include "viscontact/particles/steps/step_times.hpp"
+#include "viscontact/suspensions/cell/lattice_fault.hpp"
 #include "viscontact/suspensions/cell/strained_lattice.hpp"
 
 namespace viscontact::particles {
@@ -127,39 +128,26 @@ void flow_keys(case_file::Keys& keys, FlowKeys& flow) {
                "and stress");
 }
 
+/// The key of the flow that a fault is about.
+std::string_view key_in(const case_file::TomlSection& flow, std::string_view key) {
+  return flow.has("gradient") ? "gradient" : key;
+}
+
 /// Throws Error(kBadInput) if the flow would not move each image of the spheres in a periodic box
 /// along its period, and if there is a stress without a box.
 void check_flow(const case_file::TomlSection& section, const PairLubrication& pairs,
                 const Domain& domain) {
-  const char* key = section.has("gradient") ? "gradient" : "strain_rate";
-  const bool has_box = !std::holds_alternative<std::monostate>(domain);
-  const char* shear = section.has("gradient") ? "gradient" : "shear_rate";
-  const auto periods = periods_of(domain);
-  const auto check = [&](const Gradient& gradient) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        section.require(periods[j] == 0 || (i == 0 && j == 1) || gradient[i][j] == 0, key,
-                        "makes the velocity along {} change along {}, which is not possible with a "
-                        "period there and walls elsewhere; only that along x may change, along y "
-                        "(shear_rate), or domain.box.periodic must be true along all axes",
-                        kAxes[i], kAxes[j]);
-    section.require(periods[1] == 0 || periods[0] > 0 || gradient[0][1] == 0, shear,
-                    "moves the images across the period y along x, where the box has walls; "
-                    "domain.box.periodic must be true along x, too");
-  };
-  if (!strains_cell(pairs, domain)) {
-    check(pairs.gradient);
-    for (const auto& piece : pairs.pieces) check(piece.gradient);
-  }
+  if (const auto fault = fault_of_flow(pairs, domain))
+    section.fail(key_in(section, fault->key), fault->message);
   const auto walls = obstacles_of(domain);
   for (const auto& wall : walls)
     if (const auto fault = fault_of_plane(wall, pairs, true))
-      section.fail(section.has("strain_rate") ? "strain_rate" : shear,
+      section.fail(section.has("strain_rate") ? "strain_rate" : key_in(section, "shear_rate"),
                    "goes through a wall of the box or changes along it; it must be a shear along "
                    "all walls, which move with it, or the fluid at rest");
-  section.require(walls.empty() || !pairs.stress, "stress",
-                  "needs a box without walls, because walls would move at a rate that is a result; "
-                  "domain.box.periodic must be true along all axes");
+  if (const auto fault = fault_of_stress(pairs, !walls.empty()))
+    section.fail(fault->key, fault->message);
+  const bool has_box = !std::holds_alternative<std::monostate>(domain);
   section.require(has_box || !pairs.stress, "stress",
                   "is that of a suspension in a volume; the case must have a [domain] with a box");
 }
@@ -230,6 +218,32 @@ struct LubricationKeys {
   bool compares = false;
 };
 
+/// The keys of the flow, of the box in it, and of the inertia, which some flows do not allow.
+void keys_of_flow(case_file::Keys& keys, PairLubrication& pairs, const Domain& domain) {
+  keys.optional("velocity", case_file::custom("a table, see below", read_flow, pairs, domain),
+                {"the linear flow around the spheres", "at rest"});
+  keys.optional("offset", case_file::number(pairs.offset, kModerate),
+                {"displacement along x, at the start, of the periodic image across y"});
+  keys.require(!keys.has("offset") || has_images_across(domain), "offset",
+               "has no effect without periods along x and y; it must be left out, or the case must "
+               "have a [domain] with such a box");
+  keys.require(!keys.has("offset") || !strains_cell(pairs, domain), "offset",
+               "belongs to a shear along x that changes along y; it must be left out");
+  keys.optional("turned", case_file::custom("`true` or `false`", read_truth, pairs.turns_box),
+                {"whether a periodic box, with its spheres, is turned at the start so that an "
+                 "extension can go on for ever ([suspensions.md](suspensions.md#strained-cells))",
+                 "`true`"});
+  keys.require(!keys.has("turned") || has_turn(pairs, domain), "turned",
+               "has no effect, because no turn of a box with three periods keeps images apart in "
+               "this flow, or none is needed; it must be left out");
+  keys.optional("inertia", case_file::custom("`true` or `false`", read_truth, pairs.inertia),
+                {"whether the spheres have inertia, and not the fluid: they then need masses, and "
+                 "may have velocities at the start",
+                 "`false`"});
+  const auto fault = fault_of_inertia(pairs, domain);
+  keys.require(!fault, "inertia", "{}", fault ? fault->message : "");
+}
+
 void lubrication_keys(case_file::Keys& keys, LubricationKeys& read, const Domain& domain) {
   auto& pairs = read.pairs;
   keys.required("viscosity", case_file::number(pairs.viscosity, kModeratelyPositive),
@@ -253,32 +267,7 @@ void lubrication_keys(case_file::Keys& keys, LubricationKeys& read, const Domain
        "impulse of the film is integrated exactly"});
   keys.optional("drag", case_file::number(pairs.drag, kDrag),
                 {"multiple of the Stokes drag of the single spheres"});
-  keys.optional("velocity", case_file::custom("a table, see below", read_flow, pairs, domain),
-                {"the linear flow around the spheres", "at rest"});
-  keys.optional("offset", case_file::number(pairs.offset, kModerate),
-                {"displacement along x, at the start, of the periodic image across y"});
-  keys.require(!keys.has("offset") || has_images_across(domain), "offset",
-               "has no effect without periods along x and y; it must be left out, or the case must "
-               "have a [domain] with such a box");
-  keys.require(!keys.has("offset") || !strains_cell(pairs, domain), "offset",
-               "belongs to a shear along x that changes along y; it must be left out");
-  keys.optional("turned", case_file::custom("`true` or `false`", read_truth, pairs.turns_box),
-                {"whether a periodic box, with its spheres, is turned at the start so that an "
-                 "extension can go on for ever ([suspensions.md](suspensions.md#strained-cells))",
-                 "`true`"});
-  keys.require(!keys.has("turned") || has_turn(pairs, domain), "turned",
-               "has no effect, because no turn of a box with three periods keeps images apart in "
-               "this flow, or none is needed; it must be left out");
-  keys.optional("inertia", case_file::custom("`true` or `false`", read_truth, pairs.inertia),
-                {"whether the spheres have inertia, and not the fluid: they then need masses, and "
-                 "may have velocities at the start",
-                 "`false`"});
-  keys.require(!pairs.inertia || !pairs.stress, "inertia",
-               "is true, and velocity has a stress; with inertia the rate must be given");
-  keys.require(!pairs.inertia || accelerates_images_alike(pairs, domain), "inertia",
-               "is true in a flow that accelerates the fluid otherwise at a sphere than at its "
-               "images; along the periods of the box the flow must be at rest or a shear of "
-               "constant rate, or the case must have no such periods");
+  keys_of_flow(keys, pairs, domain);
   keys.optional(
       "compare", case_file::custom("`true` or `false`", read_truth, read.compares),
       {"whether the case is run a second time with `pairs = \"none\"`, and the page shows "
@@ -368,18 +357,11 @@ void read_lubrication(const case_file::TomlSection& root, ParticlesCase& c) {
 void check_plane_in_flow(const case_file::TomlSection& section, const Plane& plane,
                          const ParticlesCase& c) {
   const auto& pairs = *c.setting.lubrication;
-  const auto require_none = [&](const std::optional<PlaneFault>& fault) {
+  const auto require_none = [&](const std::optional<SettingFault>& fault) {
     if (fault) section.fail(fault->key, fault->message);
   };
-  if (strains_cell(pairs, c.setting.domain))
-    section.fail("normal",
-                 "belongs to a plane in a box with three periods whose flow is no shear along x "
-                 "that changes along y; the case must have one of both");
+  require_none(fault_of_planes(pairs, c.setting.domain));
   require_none(fault_of_plane(plane, pairs, false));
-  if (pairs.stress)
-    section.fail("normal",
-                 "belongs to a plane beside lubrication.velocity.stress, whose rate is a result; "
-                 "beside planes the rate of the flow must be given");
   double t = 0;
   do {
     const auto flow = pairs.flow_at(t);
@@ -399,19 +381,26 @@ void check_pieces_of_flow(const case_file::TomlSection& root, const ParticlesCas
   for (const auto* key : {"shear_rate", "strain_rate", "gradient", "stress"}) {
     if (!flow.has(key) || !flow.is_array_of_tables(key)) continue;
     double before = 0;
-    const double least = StepGrid::least_piece(c.setting.time_step);
     for (const auto& piece : flow.sections(key)) {
       const double until = piece.number("until", kPositive);
-      piece.require(c.end_time == 0 || until - before >= least, "until",
-                    "makes a piece of the length {:.6g}; it must be at least {:.6g} long, because "
-                    "steps pass by a shorter one",
-                    until - before, least);
+      const auto fault = fault_of_piece(until - before, c.setting.time_step);
+      if (fault && c.end_time > 0) piece.fail(fault->key, fault->message);
       before = until;
     }
     flow.require(before >= c.end_time * (1 - 1e-9), key,  // 1e-9 is far above rounding errors
                  "ends at {}; it must reach the end of the case, at the time {}", before,
                  c.end_time);
   }
+}
+
+void check_weights(const case_file::TomlSection& root, const ParticlesCase& c) {
+  root.section("space").require(
+      c.setting.gravity == Vector{} ||
+          std::ranges::any_of(c.particles.masses, [](double mass) { return mass > 0; }),
+      "gravity",
+      "has no effect, because no sphere has a mass or density; it must be 0 or left out, or "
+      "spheres "
+      "must have one");
 }
 
 void set_velocities_of_flow(const GivenAtStart& given, ParticlesCase& c) {
@@ -431,9 +420,9 @@ void set_velocities_of_flow(const GivenAtStart& given, ParticlesCase& c) {
 
 namespace {
 
-/// Throws Error(kBadInput) if the box cannot be turned for its flow, or if its faces would come
-/// nearer than `least` [L].
-void check_strained_box(const case_file::TomlSection& root, ParticlesCase& c, double least) {
+/// Throws Error(kBadInput) if the box cannot be turned for its flow, or if its faces would come too
+/// near for pairs of the length `pair_length` [L].
+void check_strained_box(const case_file::TomlSection& root, ParticlesCase& c, double pair_length) {
   using suspensions::StrainedLattice;
   auto& pairs = *c.setting.lubrication;
   if (!has_turn(pairs, c.setting.domain) || !pairs.turns_box) return;
@@ -445,7 +434,7 @@ void check_strained_box(const case_file::TomlSection& root, ParticlesCase& c, do
     pairs.turns_box = false;
     return;
   }
-  const auto [direction, sense, lowest] = path_of(pairs);
+  const auto [direction, sign, lowest] = path_of(pairs);
   const auto lengths = periods_of(c.setting.domain);
   const auto [shortest, longest] = std::ranges::minmax(lengths);
   constexpr double kRounding = 1e-12;
@@ -457,36 +446,21 @@ void check_strained_box(const case_file::TomlSection& root, ParticlesCase& c, do
               "needs a cube, or lubrication.turned must be false, with which the strain is limited",
               shortest, longest);
   const StrainedLattice lattice(lengths, direction, true);
-  const double height = lattice.least_height();
-  box.require(height >= least, "to",
-              "makes a box whose faces come as near as {:.6g} while the flow strains it; they must "
-              "stay {:.6g} apart, twice the largest distance of a pair, so that the edges must be "
-              "at least {:.3g} times as long",
-              height, least, least / height);
   const auto flow = lubrication.section("velocity");
-  const char* key = flow.has("gradient") ? "gradient" : "strain_rate";
-  flow.require(lattice.least_height(lowest) >= least, key,
-               "goes back by the strain {:.6g} beyond its start, where opposite faces of the "
-               "strained cell come nearer than {:.6g}, twice the largest distance of a pair; the "
-               "edges of the box in the plane of the flow must be equal and the flow without "
-               "rotation, or it must go back less far",
-               -lowest, least);
+  const auto fault = suspensions::fault_of_lattice(lattice, pair_length, lowest);
+  if (!fault) return;
+  if (box.has(fault->key)) box.fail(fault->key, fault->message);
+  flow.fail(key_in(flow, fault->key), fault->message);
 }
 
 }  // namespace
 
 void check_range(const case_file::TomlSection& root, ParticlesCase& c) {
   const double radius = std::ranges::max(c.particles.radii);
-  // The largest distance of a pair; each pair has one image that is so near.
-  const double distance = 2 * radius * (1 + c.setting.lubrication->range / 2);
-  for (const double period : periods_of(c.setting.domain))
-    if (period > 0 && !(period >= 2 * distance))
-      root.section("domain").section("box").fail(
-          "to",
-          "makes the period {:.6g}, which is too short for the range of lubrication, {}, of the "
-          "largest radius, {}; it must be at least {:.6g}, twice the largest distance of a pair",
-          period, c.setting.lubrication->range, radius, 2 * distance);
-  check_strained_box(root, c, 2 * distance);
+  const double pair_length = 2 * radius * (1 + c.setting.lubrication->range / 2);
+  if (const auto fault = fault_of_periods(c.setting.domain, pair_length))
+    root.section("domain").section("box").fail(fault->key, fault->message);
+  check_strained_box(root, c, pair_length);
 }
 
 void set_film_of_pairs(ParticlesCase& c) {
@@ -499,14 +473,10 @@ void set_film_of_pairs(ParticlesCase& c) {
   film.roughness = pairs.roughness * mean_radius(c.particles) / 2;
 }
 
-void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
-  PairLubrication unread;
-  auto& pairs = c.setting.lubrication ? *c.setting.lubrication : unread;
-  for (const auto* key : {"gamma_min", "viscosity"})
-    keys.require(!keys.has(key), key,
-                 "must be left out, because it follows from lubrication.viscosity and roughness");
-  for (const auto* key : {"restitution", "scheme"})
-    keys.require(!keys.has(key), key, "is not possible with [lubrication]; it must be left out");
+namespace {
+
+/// The end and the step, as times or as strains of the flow.
+void time_keys(case_file::Keys& keys, const PairLubrication& pairs, ParticlesCase& c) {
   const double rate = largest_rate_of_strain(pairs);
   const auto in_time = [&](double& time, std::string_view key, std::string_view in_strain,
                            const case_file::Help& help, const case_file::Help& help_in_strain,
@@ -557,6 +527,19 @@ void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.require(c.end_time / step <= kMostSteps, step_key,
                "makes {:.3g} steps to the end; at most {:.0e} are allowed", c.end_time / step,
                kMostSteps);
+}
+
+}  // namespace
+
+void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c) {
+  PairLubrication unread;
+  auto& pairs = c.setting.lubrication ? *c.setting.lubrication : unread;
+  for (const auto* key : {"gamma_min", "viscosity"})
+    keys.require(!keys.has(key), key,
+                 "must be left out, because it follows from lubrication.viscosity and roughness");
+  for (const auto* key : {"restitution", "scheme"})
+    keys.require(!keys.has(key), key, "is not possible with [lubrication]; it must be left out");
+  time_keys(keys, pairs, c);
   keys.optional("roughness", case_file::number(pairs.roughness, kRelativeLength),
                 {"gap at which the solids touch, in mean radii of the pair"});
   keys.optional("repulsion",

@@ -324,6 +324,7 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
   add_missing_shapes(c.particles);
   if (!c.setting.fluid && (c.setting.laws.friction || c.setting.lubrication || c.particles.turn()))
     add_rotation(c.particles);
+  if (c.setting.lubrication) check_weights(root, c);
   if (c.setting.lubrication && c.setting.lubrication->inertia) set_velocities_of_flow(given, c);
   if (c.particles.count() > 0 || !c.setting.sources.empty()) return lines;
   if (!c.particles_file.empty())

@@ -102,6 +102,8 @@ struct GivenAtStart {
   std::vector<bool> velocities, turns;  ///< of each particle
 };
 void set_velocities_of_flow(const GivenAtStart& given, ParticlesCase& c);
+/// Throws Error(kBadInput) if there is a gravity and no sphere has a mass.
+void check_weights(const case_file::TomlSection& root, const ParticlesCase& c);
 /// Declares the keys of [viscous_contact] in a case with [lubrication]: the end and the step, in
 /// units of time or of strain, and the contact of the solids.
 void lubricated_contact_keys(case_file::Keys& keys, ParticlesCase& c);

@@ -18,7 +18,7 @@ namespace viscontact::particles {
 namespace {
 
 // Another one means other fields.
-constexpr int kVersion = 17;
+constexpr int kVersion = 18;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -286,6 +286,7 @@ bool is_consistent(const State& state) {
   const auto is_empty_or = [](const std::vector<double>& values, std::size_t size) {
     return values.empty() || values.size() == size;
   };
+  const auto is_finite = [](const Vector& x) { return std::isfinite(norm(x)); };
   auto others = static_cast<std::int64_t>(p.count());  // of no source counted so far
   for (const auto& source : state.sources) {
     if (source.poured < 0 || source.poured > others || !std::isfinite(source.begin)) return false;
@@ -307,8 +308,8 @@ bool is_consistent(const State& state) {
          std::isfinite(state.step_before) && state.step_before >= 0 &&
          std::isfinite(state.shear.strain) && std::isfinite(state.shear.rate) &&
          std::isfinite(state.shear.offset) && std::isfinite(state.shear.net_strain) &&
-         std::ranges::all_of(state.shear.periods,
-                             [](const Vector& x) { return std::isfinite(norm(x)); });
+         std::ranges::all_of(state.shear.gradient, is_finite) &&
+         std::ranges::all_of(state.shear.periods, is_finite);
 }
 
 /// True if the numbers of the particles, the image and the place of the contact are in their

@@ -13,11 +13,11 @@ namespace viscontact::particles {
 /// the particles, and which particles form rigid bodies, are not stored, because the case has them.
 std::string write_restart(const State& state);
 
-/// Reads a restart file of version 6 to 13. It may begin with lines that state its provenance. Of
-/// rigid bodies only the motion is set. Throws Error(kBadInput), which names the file, if the file
-/// cannot be read, is not a restart file, has another version or byte order, or is damaged (its
-/// hash, or lengths, signs or ranges of its arrays are wrong). particles_earlier_run.hpp checks
-/// whether it fits a case.
+/// Reads a restart file of the present version. It may begin with lines that state its provenance.
+/// Of rigid bodies only the motion is set. Throws Error(kBadInput), which names the file, if the
+/// file cannot be read, is not a restart file, has another version or byte order, or is damaged
+/// (its hash, or lengths, signs or ranges of its arrays are wrong). particles_earlier_run.hpp
+/// checks whether it fits a case.
 State read_restart(const std::filesystem::path& path);
 
 }  // namespace viscontact::particles

@@ -25,7 +25,8 @@ Column<Rheology> if_known(std::string_view name, std::string_view meaning,
                           [](const Rheology& row) { return if_finite(row.*kMember); });
 }
 
-/// The field is also empty at rest, because the number is one over the shear rate.
+/// The field is empty without a box, which has no volume, and at rest, because the number is one
+/// over the shear rate.
 template <auto kMember>
 Column<Rheology> of_stress(std::string_view name, std::string_view meaning) {
   return column<Rheology>({name, "1", meaning, kNotInFrames}, [](const Rheology& row) {
@@ -47,7 +48,7 @@ const std::vector<Column<Rheology>>& rheology_columns() {
       of_stress<&Rheology::viscosity>(
           "viscosity",
           "relative to that of the fluid: shear stress over viscosity and shear rate, > 0 for both "
-          "signs of the rate. It and the next six are empty at rest"),
+          "signs of the rate. It and the next six are empty at rest and without a box"),
       of_stress<&Rheology::n1>(
           "n1",
           "first difference of the normal stresses, xx less yy, over the viscosity of the "

@@ -18,7 +18,7 @@ inline constexpr const char* kRheologyFile = "rheology.csv";
 inline constexpr auto kRheologyMeans =
     std::to_array<std::string_view>({"viscosity", "n1", "n2", "pressure", "viscosity_film",
                                      "viscosity_contact", "viscosity_friction"});
-/// These numbers, in the same order; NaN at rest.
+/// These numbers, in the same order; NaN at rest and without a box.
 std::array<double, kRheologyMeans.size()> numbers_to_average(const Rheology& rheology);
 
 /// The columns of the table, and the members of Rheology in Python.

@@ -226,8 +226,9 @@ bool is_finished(const EarlierRun& run, const ParticlesCase& c, double tiny,
   const auto written_at_end = std::to_array<const char*>(
       {"particles.html", "particles.svg", "final_particles.csv", "final_contacts.csv"});
   if (!std::ranges::all_of(written_at_end, is_there)) return false;
-  if (c.setting.lubrication && (!is_there("rheology.svg") || !is_there("pair_distribution.csv")))
-    return false;
+  if (c.setting.lubrication && !is_there("pair_distribution.csv")) return false;
+  const bool has_box = !std::holds_alternative<std::monostate>(c.setting.domain);
+  if (c.setting.lubrication && has_box && !is_there("rheology.svg")) return false;
   try {
     // run.json is the last file that a run writes before restart.bin.
     const auto json = nlohmann::json::parse(read_file(folder / "run.json"));

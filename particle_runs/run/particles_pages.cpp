@@ -272,7 +272,10 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
   if (c.setting.lubrication) {
     const auto curves = read_curves(c, folder, playback);
     playback.charts = suspension_charts(c, curves);
-    results::write_output(folder / "rheology.svg", TextKind::kSvg, playback.charts, provenance);
+    if (playback.charts.empty())
+      fs::remove(folder / "rheology.svg");
+    else
+      results::write_output(folder / "rheology.svg", TextKind::kSvg, playback.charts, provenance);
     results::write_output(folder / "pair_distribution.csv", TextKind::kHashComment,
                           write_pair_distribution(curves.pairs), provenance);
   }

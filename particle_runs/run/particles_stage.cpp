@@ -164,12 +164,18 @@ class Run {
   }
 
   /// Computes the velocities at the start of spheres with lubrication, which the first frame has;
-  /// if no step follows, also their rheology.
+  /// if no step follows, also their rheology. If a step follows, velocities that do not converge are
+  /// only warned of, because steps bear smaller gaps.
   void compute_start() {
     // After a step the velocities are those of the step, with which the next one begins.
     if (suspension_ == nullptr || simulation_.state().steps > 0) return;
-    const auto& rheology = suspension_->solve_instant();
-    if (is_at_end()) log_.add_rheology(rheology);
+    try {
+      const auto& rheology = suspension_->solve_instant();
+      if (is_at_end()) log_.add_rheology(rheology);
+    } catch (const Error& error) {
+      if (is_at_end() || error.kind() != ErrorKind::kNotConverged) throw;
+      terminal::warn("particles: warning: {}; the first frame has them as they are", error.what());
+    }
   }
 
   void add_frame() {
@@ -307,8 +313,7 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
       static_cast<double>(record.iterations) /
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string());
-  const bool has_volume = !std::holds_alternative<std::monostate>(c.setting.domain);
-  if (const auto viscosity = record.rheology.mean(0); viscosity && has_volume) {
+  if (const auto viscosity = record.rheology.mean(0)) {
     const auto error = record.rheology.standard_error(0);
     terminal::say("particles: the mean viscosity is {:.6g}{} times that of the fluid", *viscosity,
                   error ? fmt::format(" (standard error {:.2g})", *error) : "");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "viscontact/particle_runs/picture/line_charts.hpp"
 #include "viscontact/report/pictures/colours.hpp"
@@ -81,6 +82,8 @@ LineChart pair_chart(const SuspensionCurves& curves) {
 }  // namespace
 
 std::string suspension_charts(const ParticlesCase& c, const SuspensionCurves& curves) {
+  // Without a box there are no stresses and no density of pairs.
+  if (std::holds_alternative<std::monostate>(c.setting.domain)) return "";
   std::vector<LineChart> charts;
   if (curves.rheology.size() > 1) charts.push_back(viscosity_chart(c, curves));
   charts.push_back(pair_chart(curves));

@@ -116,10 +116,10 @@ FlowPath path_of(const PairLubrication& lubrication) {
     lowest = std::min(lowest, strain);
     highest = std::max(highest, strain);
   }
-  path.sense = -lowest > highest ? -1 : 1;
-  path.lowest = path.sense < 0 ? -highest : lowest;
+  path.sign = -lowest > highest ? -1 : 1;
+  path.lowest = path.sign < 0 ? -highest : lowest;
   path.direction = *first;
-  for (auto& row : path.direction) row = (path.sense / signed_rate_of_strain(*first)) * row;
+  for (auto& row : path.direction) row = (path.sign / signed_rate_of_strain(*first)) * row;
   return path;
 }
 

@@ -93,7 +93,7 @@ struct FlowPath {
   /// The gradient of the rate of strain 1; 0 if the gradients are no multiples of one, or do not
   /// strain. Along it the net strain gets farther than against it.
   Gradient direction{};
-  double sense = 1;  ///< sign of signed_rate_of_strain() of the direction
+  double sign = 1;  ///< of signed_rate_of_strain() of the direction
   /// The least net strain along the direction at all times, up to the end of the last piece, <= 0.
   double lowest = 0;
 };

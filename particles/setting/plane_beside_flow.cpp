@@ -34,43 +34,45 @@ bool sticks(const Gradient& gradient, const Vector& n) {
 
 }  // namespace
 
-std::optional<PlaneFault> fault_of_plane(const Plane& plane, const PairLubrication& pairs,
-                                         bool is_wall) {
+std::optional<SettingFault> fault_of_plane(const Plane& plane, const PairLubrication& pairs,
+                                           bool is_wall) {
   if (plane.start.is_curved())
-    return PlaneFault{"normal", "is that of a round wall; films are between spheres and planes"};
+    return SettingFault{"normal", "is that of a round wall; films are between spheres and planes"};
   if (plane.load)
-    return PlaneFault{
+    return SettingFault{
         "mass",
         "belongs to a plane that a load moves; beside [lubrication] planes move along "
         "themselves only"};
   if (norm(plane.angular_velocity) > 0)
-    return PlaneFault{"angular_velocity",
-                      "turns this plane; beside [lubrication] planes move along themselves only"};
+    return SettingFault{"angular_velocity",
+                        "turns this plane; beside [lubrication] planes move along themselves only"};
   const Vector& n = plane.start.normal;
   const bool is_along =
       sticks(pairs.gradient, n) && std::ranges::all_of(pairs.pieces, [&](const FlowPiece& piece) {
         return sticks(piece.gradient, n);
       });
   if (!is_along)
-    return PlaneFault{"normal",
-                      "belongs to a plane along which the flow changes, or through which it goes; "
-                      "lubrication.velocity must be a shear along the plane, or the fluid at rest"};
+    return SettingFault{
+        "normal",
+        "belongs to a plane along which the flow changes, or through which it goes; "
+        "lubrication.velocity must be a shear along the plane, or the fluid at rest"};
   if (is_wall) return {};
   for (const auto& piece : plane.velocity.pieces)
     if (std::abs(dot(n, piece.value)) > kRounding * norm(piece.value))
-      return PlaneFault{"velocity",
-                        "has a component along the normal; beside [lubrication] planes move along "
-                        "themselves only"};
+      return SettingFault{
+          "velocity",
+          "has a component along the normal; beside [lubrication] planes move along "
+          "themselves only"};
   return {};
 }
 
-std::optional<PlaneFault> fault_of_motion(const Plane& plane, const Gradient& gradient, double from,
-                                          double to) {
+std::optional<SettingFault> fault_of_motion(const Plane& plane, const Gradient& gradient,
+                                            double from, double to) {
   const Vector velocity = to > from ? plane.velocity.mean(from, to) : plane.velocity.value(from);
   const Vector flow = flow_at(gradient, plane.start.point);
   const double least = kRounding * (size_of(gradient) * norm(plane.start.point) + norm(velocity));
   if (norm(velocity - flow) <= least) return {};
-  return PlaneFault{
+  return SettingFault{
       "velocity",
       fmt::format(
           "is [{:.6g}, {:.6g}, {:.6g}] at the time {:.6g}, where the flow beside the plane has "

@@ -71,6 +71,7 @@ struct GivenParticleLoad {
 struct ShearProgress {
   double strain = 0;  ///< integral of the shear rate since the start [1]
   double rate = 0;  ///< factor on the gradient of the setting in the last step [1]; 0 at the start
+  std::array<Vector, 3> gradient{};  ///< of the flow in the last step [1/T]; 0 at the start
   double offset = 0;  ///< displacement of images across y along x [L], within half a period
   /// The integral of signed_rate_of_strain() [1], of which the period vectors are those of an
   /// extension (suspensions/cell/strained_lattice.hpp).

@@ -68,6 +68,9 @@ struct StepReport {
   /// each set of connected particles is solved by itself, and those of the set that needs most are
   /// counted.
   int iterations = 0;
+  /// Parts into which the step was divided because particles move fast or sweeps did not solve
+  /// Coulomb's law, 1 to 256; 0 if no time was left for a step.
+  int parts = 0;
   /// The methods of the contact solver that ran and their iterations, summed over all sets and
   /// parts, such as "sweeps:60+proximal_steps:12"; empty if there was nothing to solve.
   std::string solver_stages{};
@@ -83,9 +86,6 @@ struct StepReport {
   double excess = 0;
   /// Largest overlap -d, divided by the mean radius [1]. No true gap is smaller than d.
   double largest_overlap = 0;
-  /// Parts into which the step was divided because particles move fast or sweeps did not solve
-  /// Coulomb's law, 1 to 256; 1 if no time was left.
-  int parts = 0;
   /// Contacts whose particles pass each other by more than half the sum of their radii even in the
   /// smallest parts of the step (kLargestTurn in contact.hpp), too far for linearised gaps.
   std::size_t unresolved = 0;

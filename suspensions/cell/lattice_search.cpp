@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "viscontact/suspensions/cell/cell_lists.hpp"
+
 namespace viscontact::suspensions {
 namespace {
 
@@ -18,13 +20,9 @@ class LatticeGrid {
  public:
   LatticeGrid(const LatticeCell& cell, std::span<const double> positions, double reach)
       : cell_(cell) {
-    const Vector heights = heights_of(cell.periods);
     const auto count = positions.size() / 3;
-    // More cells than spheres would cost time.
-    const double most = std::max(3.0, std::cbrt(static_cast<double>(count)));
-    for (std::size_t d = 0; d < 3; ++d)
-      cells_[d] = static_cast<std::int64_t>(std::clamp(std::floor(heights[d] / reach), 1.0, most));
-    begin_.assign(static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]) + 1, 0);
+    cells_ = cells_along(heights_of(cell.periods), reach, count);
+    std::vector<std::size_t> cells(count);
     places_.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
       const Vector at = cell.fractions_at(particles::point_of(positions.data(), k, 3));
@@ -33,17 +31,13 @@ class LatticeGrid {
         place[d] = std::clamp<std::int64_t>(
             static_cast<std::int64_t>(std::floor((at[d] + 0.5) * static_cast<double>(cells_[d]))),
             0, cells_[d] - 1);
-      ++begin_[index_of(place) + 1];
+      cells[k] = index_of(place);
     }
-    for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-    spheres_.resize(count);
-    auto next = begin_;
-    for (std::size_t k = 0; k < count; ++k)
-      spheres_[next[index_of(places_[k])]++] = static_cast<std::int32_t>(k);
+    lists_ = CellLists(static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]), cells);
   }
 
   /// False if a sphere might meet a cell from two sides.
-  bool suits() const {
+  bool meets_cells_once() const {
     return std::ranges::all_of(cells_, [](std::int64_t cells) { return cells >= 3; });
   }
 
@@ -64,7 +58,8 @@ class LatticeGrid {
           }
           const Vector shift = cell_.shift_of(counts);
           const auto index = index_of(at);
-          for (std::size_t s = begin_[index]; s < begin_[index + 1]; ++s) see(spheres_[s], shift);
+          for (std::size_t s = lists_.begin(index); s < lists_.end(index); ++s)
+            see(lists_.elements()[s], shift);
         }
   }
 
@@ -76,8 +71,7 @@ class LatticeGrid {
   const LatticeCell& cell_;
   std::array<std::int64_t, 3> cells_{};
   std::vector<std::array<std::int64_t, 3>> places_;  // cell of each sphere
-  std::vector<std::size_t> begin_;                   // of each cell in spheres_
-  std::vector<std::int32_t> spheres_;                // in order of cell
+  CellLists lists_;
 };
 
 }  // namespace
@@ -88,7 +82,7 @@ std::vector<NearPair> near_pairs_of_lattice(const LatticeCell& cell,
                                             ThreadPool* pool) {
   assert(positions.size() == 3 * radii.size());
   const LatticeGrid grid(cell, positions, largest_distance(radii, range));
-  const bool suits = grid.suits();
+  const bool meets_cells_once = grid.meets_cells_once();
   const auto add_pairs = [&](std::size_t i, std::vector<NearPair>& pairs) {
     const auto begin = pairs.size();
     const Vector at = particles::point_of(positions.data(), i, 3);
@@ -97,7 +91,7 @@ std::vector<NearPair> near_pairs_of_lattice(const LatticeCell& cell,
       if (dot(apart, apart) < farthest * farthest)
         pairs.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), apart});
     };
-    if (suits) {
+    if (meets_cells_once) {
       grid.for_near(i, [&](std::int32_t number, const Vector& shift) {
         const auto j = static_cast<std::size_t>(number);
         if (j > i) try_pair(j, particles::point_of(positions.data(), j, 3) + shift - at);

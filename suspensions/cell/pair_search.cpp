@@ -9,14 +9,13 @@
 #include <cstddef>
 #include <limits>
 
+#include "viscontact/suspensions/cell/cell_lists.hpp"
 #include "viscontact/suspensions/cell/lattice_search.hpp"
 
 namespace viscontact::suspensions {
 namespace {
 
 struct SearchTuning {
-  // Cells along an axis without a period, so that few spheres far apart need little memory.
-  static constexpr double kMostCells = 100;
   static constexpr std::size_t kSpheres = 1024;  // in a block of a loop
   // Over the square of the largest distance: more than the rounding errors of a distance by cells.
   static constexpr double kSlack = 1 + 1e-9;
@@ -41,10 +40,10 @@ class Grid {
        double reach)
       : period_(cell.lengths[0]) {
     const std::size_t count = radii.size();
+    Vector lengths = cell.lengths;
     for (std::size_t d = 0; d < 3; ++d) {
       auto& axis = axes_[d];
-      axis.is_periodic = cell.lengths[d] > 0;
-      double length = cell.lengths[d];
+      axis.is_periodic = lengths[d] > 0;
       axis.from = cell.from[d];
       if (!axis.is_periodic) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -53,32 +52,31 @@ class Grid {
           high = std::max(high, positions[3 * k + d]);
         }
         axis.from = low;
-        length = high - low;
+        lengths[d] = high - low;
       }
-      axis.cells = static_cast<std::int64_t>(std::clamp(
-          std::floor(length / reach), 1.0, axis.is_periodic ? 1e6 : SearchTuning::kMostCells));
-      axis.width = std::max(length / static_cast<double>(axis.cells), reach);
     }
-    begin_.assign(static_cast<std::size_t>(axes_[0].cells * axes_[1].cells * axes_[2].cells) + 1,
-                  0);
+    const auto along = cells_along(lengths, reach, count);
+    for (std::size_t d = 0; d < 3; ++d) {
+      axes_[d].cells = along[d];
+      axes_[d].width = std::max(lengths[d] / static_cast<double>(along[d]), reach);
+    }
     std::vector<std::size_t> cells(count);
     for (std::size_t k = 0; k < count; ++k) {
       std::array<std::int64_t, 3> at{};
       for (std::size_t d = 0; d < 3; ++d)
         at[d] = axes_[d].clamped(axes_[d].cell_of(positions[3 * k + d]));
       cells[k] = index_of(at);
-      ++begin_[cells[k] + 1];
     }
-    for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-    spheres_.resize(count);
-    auto next = begin_;
-    for (std::size_t k = 0; k < count; ++k)
-      spheres_[next[cells[k]]++] = {particles::point_of(positions.data(), k, 3), radii[k],
-                                    static_cast<std::int32_t>(k)};
+    lists_ = CellLists(static_cast<std::size_t>(along[0] * along[1] * along[2]), cells);
+    spheres_.reserve(count);
+    for (const auto number : lists_.elements()) {
+      const auto k = static_cast<std::size_t>(number);
+      spheres_.push_back({particles::point_of(positions.data(), k, 3), radii[k], number});
+    }
   }
 
   /// False if a sphere might meet a cell from two sides.
-  bool suits() const {
+  bool meets_cells_once() const {
     return std::ranges::all_of(axes_, [&](const Axis& axis) {
       return !axis.is_periodic || axis.cells >= 3 || &axis == &axes_[0];
     });
@@ -153,16 +151,16 @@ class Grid {
       const double shift = has_all ? std::numeric_limits<double>::quiet_NaN()
                                    : static_cast<double>((c - x) / axis.cells) * period_;
       const auto index = index_of({x, y, z});
-      const auto stop = begin_[index + static_cast<std::size_t>(end - x)];
-      for (std::size_t s = begin_[index]; s < stop; ++s) see(spheres_[s], shift);
+      const auto stop = lists_.begin(index + static_cast<std::size_t>(end - x));
+      for (std::size_t s = lists_.begin(index); s < stop; ++s) see(spheres_[s], shift);
       c += end - x;
     }
   }
 
   double period_ = 0;  // along x
   std::array<Axis, 3> axes_{};
-  std::vector<std::size_t> begin_;  // of each cell in spheres_
-  std::vector<Sphere> spheres_;     // in order of cell
+  CellLists lists_;
+  std::vector<Sphere> spheres_;  // in order of lists_
 };
 
 }  // namespace
@@ -187,36 +185,35 @@ std::vector<NearPair> near_pairs(const ShearedCell& cell, std::span<const double
     if (dot(apart, apart) < farthest * farthest)
       found.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), apart});
   };
-  if (!grid.suits()) {
+  if (!grid.meets_cells_once()) {
     for (std::size_t i = 0; i < radii.size(); ++i)
       for (std::size_t j = i + 1; j < radii.size(); ++j) try_pair(i, j, pairs);
     return pairs;
   }
-  using Found = ConcatenatedBlocks<NearPair>;
+  std::vector<std::vector<NearPair>> found((radii.size() - 1) / SearchTuning::kSpheres + 1);
   ThreadPool one(1);
-  const auto found =
-      (pool ? *pool : one)
-          .sum_of_blocks<Found>(
-              radii.size(),
-              [&](std::size_t begin, std::size_t end) {
-                Found part;
-                for (std::size_t s = begin; s < end; ++s) {
-                  const auto& sphere = grid.spheres()[s];
-                  grid.for_near(sphere, cell, reach, range, [&](const auto& other) {
-                    const auto [i, j] = std::minmax(sphere.number, other.number);
-                    try_pair(static_cast<std::size_t>(i), static_cast<std::size_t>(j), part.values);
-                  });
-                }
-                return part;
-              },
-              SearchTuning::kSpheres)
-          .values;
+  (pool ? *pool : one)
+      .for_blocks(
+          radii.size(),
+          [&](std::size_t begin, std::size_t end) {
+            auto& part = found[begin / SearchTuning::kSpheres];
+            for (std::size_t s = begin; s < end; ++s) {
+              const auto& sphere = grid.spheres()[s];
+              grid.for_near(sphere, cell, reach, range, [&](const auto& other) {
+                const auto [i, j] = std::minmax(sphere.number, other.number);
+                try_pair(static_cast<std::size_t>(i), static_cast<std::size_t>(j), part);
+              });
+            }
+          },
+          SearchTuning::kSpheres);
   // In order of first, second.
   std::vector<std::size_t> next(radii.size() + 1, 0);
-  for (const auto& pair : found) ++next[static_cast<std::size_t>(pair.first) + 1];
+  for (const auto& part : found)
+    for (const auto& pair : part) ++next[static_cast<std::size_t>(pair.first) + 1];
   for (std::size_t k = 1; k < next.size(); ++k) next[k] += next[k - 1];
-  pairs.resize(found.size());
-  for (const auto& pair : found) pairs[next[static_cast<std::size_t>(pair.first)]++] = pair;
+  pairs.resize(next.back());
+  for (const auto& part : found)
+    for (const auto& pair : part) pairs[next[static_cast<std::size_t>(pair.first)]++] = pair;
   std::size_t begin = 0;
   for (std::size_t k = 0; k < radii.size(); ++k) {
     const auto from = pairs.begin() + static_cast<std::ptrdiff_t>(begin);

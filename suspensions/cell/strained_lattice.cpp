@@ -134,6 +134,60 @@ Lattice axes_of(const Matrix& g) {
   return axes;
 }
 
+/// The plane of a planar extension, and how its components grow there.
+struct PlaneOfFlow {
+  std::size_t i = 0, j = 0, k = 0;   // the axes near the plane, and the one across it
+  Vector axis{}, first{}, second{};  // across the plane, and in it near the axes i and j
+  double rate = 0;
+  std::array<double, 2> grows{}, shrinks{};  // left eigenvectors of the rates +-rate
+
+  explicit PlaneOfFlow(const Matrix& gradient) : axis(axis_of_planar_extension(gradient)) {
+    for (std::size_t d = 1; d < 3; ++d)
+      if (std::abs(axis[d]) > std::abs(axis[k]) + LatticeTuning::kSame) k = d;
+    if (axis[k] < 0) axis = -1.0 * axis;
+    i = (k + 1) % 3;
+    j = (k + 2) % 3;
+    first[i] = 1;
+    first = first - axis[i] * axis;
+    first = (1 / norm(first)) * first;
+    second = cross(axis, first);
+    const double a = dot(first, times(gradient, first)), b = dot(first, times(gradient, second));
+    const double c = dot(second, times(gradient, first));
+    rate = std::sqrt(a * a + b * c);
+    const auto left = [&](double r) {
+      const std::array<double, 2> one{c, r - a}, other{r + a, b};
+      const auto size = [](const auto& x) { return std::hypot(x[0], x[1]); };
+      auto chosen = size(one) > size(other) ? one : other;
+      const double length = size(chosen);
+      for (auto& x : chosen) x /= length;
+      return chosen;
+    };
+    grows = left(rate);
+    shrinks = left(-rate);
+  }
+};
+
+/// Components of the period vectors that grow in the golden ratio, (9.25): a unit of the field of
+/// the square root of 5, which is near no rational number, repeats them.
+struct GoldenTurn {
+  std::array<double, 2> form{};
+  double angle = 0;  // of the box; the least that gives its edges p and q these components
+
+  GoldenTurn(const std::array<double, 2>& grows, double p, double q) {
+    const double golden = std::numbers::phi;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::array<double, 2>& trial : {std::array{golden, -1.0}, std::array{1.0, golden},
+                                               std::array{golden, 1.0}, std::array{1.0, -golden}}) {
+      double turned = std::atan2(grows[1], grows[0]) - std::atan2(trial[1] / q, trial[0] / p);
+      turned -= std::numbers::pi * std::round(turned / std::numbers::pi);
+      if (std::abs(turned) > least - LatticeTuning::kSame) continue;
+      least = std::abs(turned);
+      angle = turned;
+      form = trial;
+    }
+  }
+};
+
 }  // namespace
 
 Lattice reduced(Lattice v) {
@@ -191,46 +245,14 @@ StrainedLattice::StrainedLattice(const Vector& lengths, const Matrix& gradient, 
 }
 
 void StrainedLattice::turn_in_plane(const Vector& lengths, const Matrix& gradient) {
-  Vector axis = axis_of_planar_extension(gradient);
-  std::size_t k = 0;
-  for (std::size_t d = 1; d < 3; ++d)
-    if (std::abs(axis[d]) > std::abs(axis[k]) + LatticeTuning::kSame) k = d;
-  if (axis[k] < 0) axis = -1.0 * axis;
-  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-  // Directions near the axes i and j across the axis of the flow.
-  Vector first{};
-  first[i] = 1;
-  first = first - axis[i] * axis;
-  first = (1 / norm(first)) * first;
-  const Vector second = cross(axis, first);
-  const double a = dot(first, times(gradient, first)), b = dot(first, times(gradient, second));
-  const double c = dot(second, times(gradient, first)), rate = std::sqrt(a * a + b * c);
-  // Left eigenvectors of the rates +-rate in the plane.
-  const auto left = [&](double r) {
-    const std::array<double, 2> one{c, r - a}, other{r + a, b};
-    const auto size = [](const auto& x) { return std::hypot(x[0], x[1]); };
-    auto chosen = size(one) > size(other) ? one : other;
-    const double length = size(chosen);
-    for (auto& x : chosen) x /= length;
-    return chosen;
-  };
-  const auto grows = left(rate), shrinks = left(-rate);
-
-  // Components of the period vectors that grow in the golden ratio, (9.25): a unit of the field of
-  // the square root of 5, which is near no rational number, repeats them.
-  const double golden = std::numbers::phi, p = lengths[i], q = lengths[j];
-  std::array<double, 2> form{};
-  double angle = 0, least = std::numeric_limits<double>::infinity();
-  for (const std::array<double, 2>& trial : {std::array{golden, -1.0}, std::array{1.0, golden},
-                                             std::array{golden, 1.0}, std::array{1.0, -golden}}) {
-    double turned = std::atan2(grows[1], grows[0]) - std::atan2(trial[1] / q, trial[0] / p);
-    turned -= std::numbers::pi * std::round(turned / std::numbers::pi);
-    if (std::abs(turned) > least - LatticeTuning::kSame) continue;
-    least = std::abs(turned);
-    angle = turned;
-    form = trial;
-  }
-  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const PlaneOfFlow plane(gradient);
+  const auto i = plane.i, j = plane.j, k = plane.k;
+  const auto &axis = plane.axis, &first = plane.first, &second = plane.second;
+  const auto &grows = plane.grows, &shrinks = plane.shrinks;
+  const double p = lengths[i], q = lengths[j];
+  const GoldenTurn golden(grows, p, q);
+  const auto& form = golden.form;
+  const double cosine = std::cos(golden.angle), sine = std::sin(golden.angle);
   const Vector edge = cosine * first + sine * second, across = cosine * second - sine * first;
   for (std::size_t d = 0; d < 3; ++d) {
     turn_[d][i] = edge[d];
@@ -242,7 +264,7 @@ void StrainedLattice::turn_in_plane(const Vector& lengths, const Matrix& gradien
   const double determinant = grows[0] * shrinks[1] - grows[1] * shrinks[0];
   directions_ = {(1 / determinant) * (shrinks[1] * first - shrinks[0] * second),
                  (1 / determinant) * (grows[0] * second - grows[1] * first), axis};
-  rates_ = {rate, -rate, 0};
+  rates_ = {plane.rate, -plane.rate, 0};
   const auto component = [&](const std::array<double, 2>& row, const Vector& x) {
     return row[0] * dot(first, x) + row[1] * dot(second, x);
   };

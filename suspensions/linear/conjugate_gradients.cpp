@@ -27,9 +27,9 @@ ConjugateGradients::Result ConjugateGradients::solve(const Resistance& resistanc
   assert(loads.size() == resistance.count() && motions.size() == resistance.count());
   const std::size_t count = resistance.free_count();
   residual_.resize(count);
-  direction_.assign(resistance.count(), {});
+  direction_.resize(resistance.count());
   product_.resize(resistance.count());
-  rows_.set(resistance);
+  const auto change = std::span(product_).first(count);
   const auto for_spheres = [&](const auto& body) {
     pool_->for_blocks(
         count,
@@ -39,53 +39,52 @@ ConjugateGradients::Result ConjugateGradients::solve(const Resistance& resistanc
             return 0;
           });
         },
-        kSpheresInBlock);
+        BlockTuning::kSpheres);
   };
+  const ResistanceProduct product(resistance, *pool_);
   Result result;
-  rows_.multiply(resistance, motions, product_, *pool_);
-  for_spheres([&](std::size_t k) {
-    residual_[k].along = loads[k].along - product_[k].along;
-    residual_[k].turn = loads[k].turn - product_[k].turn;
-  });
-  result.residual = preconditioner.apply(residual_, direction_, *pool_);
+  product.multiply(motions, product_);
+  for_spheres([&](std::size_t k) { residual_[k] = loads[k]; });
+  result.residual = preconditioner.subtract_and_solve(1, residual_, change, *pool_);
+  std::ranges::fill(std::span(direction_).subspan(count), Motion{});
+  for_spheres([&](std::size_t k) { direction_[k] = change[k]; });
   const double allowed = std::max(end.residual, end.reduction * result.residual);
   result.start = result.residual;
   double best = result.residual, rounding = -1;
   int since_best = 0;
   while (result.residual > allowed && result.iterations < most_iterations) {
-    const double curvature = rows_.multiply(resistance, direction_, product_, *pool_);
+    const double curvature = product.multiply(direction_, product_);
     if (!(curvature > 0)) break;
     const double length = result.residual / curvature;
     // Directions are orthogonal in the sense of R.
     result.curvature += length * result.residual;
-    for_spheres([&](std::size_t k) {
-      motions[k].along += length * direction_[k].along;
-      motions[k].turn += length * direction_[k].turn;
-      residual_[k].along -= length * product_[k].along;
-      residual_[k].turn -= length * product_[k].turn;
-    });
-    // The preconditioned residual stands in place of the product until the direction is new.
-    const double next = preconditioner.apply(residual_, product_, *pool_);
+    // The preconditioned residual takes the place of the product.
+    const double next = preconditioner.subtract_and_solve(length, residual_, change, *pool_);
     const double share = next / result.residual;
     result.residual = next;
     ++result.iterations;
+    for_spheres([&](std::size_t k) {
+      auto &direction = direction_[k], &motion = motions[k];
+      motion.along += length * direction.along;
+      motion.turn += length * direction.turn;
+      direction.along = change[k].along + share * direction.along;
+      direction.turn = change[k].turn + share * direction.turn;
+    });
     if (next < best / 2) {
       best = next;
       since_best = 0;
     } else if (++since_best > GradientTuning::kPatience) {
       if (rounding < 0) {
-        std::vector<Motion> solved(count);
-        rounding = GradientTuning::kRounding * preconditioner.apply(loads, solved, *pool_);
+        std::vector<Motion> all(loads.begin(), loads.begin() + static_cast<std::ptrdiff_t>(count)),
+            solved(count);
+        rounding =
+            GradientTuning::kRounding * preconditioner.subtract_and_solve(0, all, solved, *pool_);
       }
       if (best < rounding) {
         result.stagnates = true;
         break;
       }
     }
-    for_spheres([&](std::size_t k) {
-      direction_[k].along = product_[k].along + share * direction_[k].along;
-      direction_[k].turn = product_[k].turn + share * direction_[k].turn;
-    });
   }
   result.converged = result.stagnates || result.residual <= allowed;
   return result;

@@ -7,7 +7,6 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/suspensions/linear/block_preconditioner.hpp"
 #include "viscontact/suspensions/pairs/resistance.hpp"
-#include "viscontact/suspensions/pairs/row_blocks.hpp"
 #include "viscontact/suspensions/values/lanes.hpp"
 
 namespace viscontact::suspensions {
@@ -35,7 +34,6 @@ class ConjugateGradients {
 
  private:
   ThreadPool* pool_;
-  RowBlocks rows_;
   std::vector<Motion> residual_, direction_, product_;
 };
 

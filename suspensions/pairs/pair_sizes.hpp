@@ -7,7 +7,7 @@ namespace viscontact::suspensions {
 
 struct PairSizes {
   /// Distance of the centres at contact; beside a plane that of the centre from the plane [L].
-  double touching = 0;
+  double contact_distance = 0;
   double mean = 0;     ///< mean radius, beside a plane the radius of the sphere [L]
   double reduced = 0;  ///< a_1 a_2/(a_1 + a_2) [L]
   bool has_plane = false;

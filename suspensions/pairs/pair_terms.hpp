@@ -16,7 +16,8 @@ namespace viscontact::suspensions {
 ///     + 2 strain_squeeze (n.d) nEn + 2 sum of strain_turn_i (w_i - W).(n x En)
 ///     + stress_axial (nEn)^2 + stress_transverse |En across n|^2 + stress_twofold E_t:E_t,
 ///
-/// where E_t is the part of E across n without trace. No rigid motion of the pair has a load.
+/// where E_t is the part of E across n without trace. No rigid motion of the pair has a load if the
+/// arm is the distance of the centres.
 struct BalancedTerms {
   double arm = 0;                                                      ///< [L]
   double squeeze = 0;                                                  ///< [M/T]
@@ -47,8 +48,8 @@ struct TableTerms {
   PairDrag drag;
 };
 
-/// The terms 1/q and ln(1/q), where q is the gap in mean radii and `regularisation`. `gap` and
-/// radii are in [L]; q < 1.
+/// The terms 1/q and ln(1/q), where q > 0 is the gap in mean radii and `regularisation`. Where q > 1
+/// the logarithm counts as 0. `gap` and radii are in [L].
 BalancedTerms near_contact_terms(double viscosity, double radius1, double radius2, double gap,
                                  double regularisation);
 

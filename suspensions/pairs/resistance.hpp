@@ -5,34 +5,38 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "viscontact/suspensions/pairs/pair_terms.hpp"
+#include "viscontact/suspensions/pairs/row_blocks.hpp"
 #include "viscontact/suspensions/values/lanes.hpp"
 
 namespace viscontact::suspensions {
 
 /// The balanced part of a pair, BalancedTerms.
-struct alignas(kLaneAlignment) PairRow {
-  Lanes normal{};  ///< from the first to the second sphere
+struct PairRow {
+  Packed normal;  ///< from the first to the second sphere; loads_of() reads it here
   double squeeze = 0;
   double turn_first = 0, turn_mixed = 0, turn_second = 0, spin = 0;
   double inverse_arm = 0;
+  double gap = 0;  ///< at which the terms are taken [L]
   std::int32_t first = 0, second = 0;
 };
 
 /// A pair's resistance to its own rigid motions, PairDrag.
-struct alignas(kLaneAlignment) DragRow {
-  Lanes normal{};
+struct DragRow {
+  Packed normal;
   PairDrag drag;
   std::int32_t first = 0, second = 0;
 };
 
 /// Takes the resistance of a contact that slides, (9.16), in the direction of its slip away from
 /// that of the pair, which is the same in all directions.
-struct alignas(kLaneAlignment) SlipRow {
-  Lanes normal{}, direction{};
+struct SlipRow {
+  Packed normal, direction;
   double stiffness = 0;
   double arm_first = 0, arm_second = 0;  ///< whose sum is the arm of the pair
   std::int32_t first = 0, second = 0;
@@ -56,6 +60,7 @@ struct Resistance {
   std::vector<PairRow> pairs;
   std::vector<DragRow> drags;
   std::vector<SlipRow> slips;
+  RowBlocks blocks;  ///< of pairs, and of drags, which are those of the same pairs
   /// Bodies at the end of `spheres` that always move with the flow, the planes. Their loads count
   /// as 0, and no linear problem moves them.
   std::size_t fixed = 0;
@@ -67,20 +72,39 @@ struct Resistance {
   void multiply(std::span<const Motion> motions, std::span<Motion> loads) const;
 };
 
+/// The same product by several threads, with the same bits for any number of them.
+class ResistanceProduct {
+ public:
+  /// The rows of `resistance`, which are in order of their first spheres, may change their numbers,
+  /// but neither pairs nor slips.
+  ResistanceProduct(const Resistance& resistance, ThreadPool& pool);
+  /// loads = R motions. Returns motions.(loads).
+  double multiply(std::span<const Motion> motions, std::span<Motion> loads) const;
+
+ private:
+  const Resistance* resistance_;
+  ThreadPool* pool_;
+  RowBlocks slips_;
+};
+
 /// The loads of both spheres of a row.
 struct RowLoads {
   Motion first, second;
 };
 
 inline RowLoads loads_of(const PairRow& pair, const Motion& x1, const Motion& x2) {
-  const Lanes n = pair.normal;
+  // One load takes less time than three.
+  static_assert(std::is_trivially_copyable_v<PairRow>);
+  Lanes n;
+  std::memcpy(&n, &pair, sizeof n);
+  n = first_three(n);
   const Lanes d = x2.along - x1.along;
   const Lanes rotation = pair.inverse_arm * cross(n, d);
-  const double spin1 = dot(n, x1.turn), spin2 = dot(n, x2.turn);
+  const Lanes spin1 = dots(n, x1.turn), spin2 = dots(n, x2.turn);
   const Lanes a = x1.turn - spin1 * n - rotation, b = x2.turn - spin2 * n - rotation;
   const Lanes turn1 = pair.turn_first * a + pair.turn_mixed * b;
   const Lanes turn2 = pair.turn_mixed * a + pair.turn_second * b;
-  const Lanes along = (pair.squeeze * dot(n, d)) * n + pair.inverse_arm * cross(n, turn1 + turn2);
+  const Lanes along = (pair.squeeze * dots(n, d)) * n + pair.inverse_arm * cross(n, turn1 + turn2);
   const Lanes spin = (pair.spin * (spin2 - spin1)) * n;
   return {{-along, turn1 - spin}, {along, turn2 + spin}};
 }
@@ -89,13 +113,13 @@ inline RowLoads loads_of(const DragRow& row, const Motion& x1, const Motion& x2)
   const std::array<const Motion*, 2> x{&x1, &x2};
   const Lanes n = row.normal;
   const auto& drag = row.drag;
-  double axial = 0, spin = 0;
+  Lanes axial{}, spin{};
   std::array<Lanes, 2> across{}, turned{};
   for (std::size_t s = 0; s < 2; ++s) {
     const Motion& motion = *x[s];
-    const double along_n = dot(n, motion.along);
+    const Lanes along_n = dots(n, motion.along);
     axial += drag.axial[s] * along_n;
-    spin += drag.spin[s] * dot(n, motion.turn);
+    spin += drag.spin[s] * dots(n, motion.turn);
     across[s] = motion.along - along_n * n;
     turned[s] = cross(n, motion.turn);
   }
@@ -115,13 +139,12 @@ inline RowLoads loads_of(const DragRow& row, const Motion& x1, const Motion& x2)
 }
 
 inline RowLoads loads_of(const SlipRow& row, const Motion& x1, const Motion& x2) {
-  const Lanes across = cross(row.direction, row.normal);
-  const double slip = row.arm_first * dot(row.direction, x1.turn) +
-                      row.arm_second * dot(row.direction, x2.turn) -
-                      dot(across, x2.along - x1.along);
+  const Lanes direction = row.direction, across = cross(direction, row.normal);
+  const double slip = row.arm_first * dot(direction, x1.turn) +
+                      row.arm_second * dot(direction, x2.turn) - dot(across, x2.along - x1.along);
   const double load = -row.stiffness * slip;
-  return {{load * across, (row.arm_first * load) * row.direction},
-          {-load * across, (row.arm_second * load) * row.direction}};
+  return {{load * across, (row.arm_first * load) * direction},
+          {-load * across, (row.arm_second * load) * direction}};
 }
 
 inline void add(const Motion& load, Motion& sum) {

@@ -68,7 +68,7 @@ std::vector<bool> SuspensionStep::stopped_spheres() const {
     if (!(system_.resistance().pairs[p].squeeze > 0)) continue;
     const auto& pair = problem_.pairs[p];
     const auto i = index_of(pair.first), j = index_of(pair.second);
-    const double length = norm(pair.apart), touching = sizes(p).touching;
+    const double length = norm(pair.apart), touching = sizes(p).contact_distance;
     const Vector end = times(carry, pair.apart) + problem_.h * (start_of(j) - start_of(i));
     if (dot(pair.apart, end) / length - touching >= StepTuning::kImpact * (length - touching))
       continue;
@@ -93,6 +93,26 @@ std::vector<Motion> SuspensionStep::changes_of_velocities() const {
     changes[k].turn = (inertia_[k].turn * problem_.h / moment) * (motions_[k].turn - start.turn);
   }
   return changes;
+}
+
+void SuspensionStep::balance_momentum() {
+  const auto& resistance = system_.resistance();
+  if (inertia_.empty() || resistance.fixed > 0) return;
+  // Of pairs only their drags have a sum.
+  Lanes force{};
+  double most = 0;  // at least what all spheres resist together
+  for (std::size_t k = 0; k < motions_.size(); ++k) {
+    force += given_loads_[k].along - resistance.spheres[k].move * motions_[k].along;
+    most += resistance.spheres[k].move;
+  }
+  for (const auto& row : resistance.drags) {
+    const auto loads = loads_of(row, motions_[index_of(row.first)], motions_[index_of(row.second)]);
+    force -= loads.first.along + loads.second.along;
+    const auto add = [&](const auto& move) { most += (move[0] + move[1]) * (move[0] + move[1]); };
+    add(row.drag.axial);
+    for (const auto& mode : row.drag.transverse) add(mode.move);
+  }
+  for (auto& motion : motions_) motion.along += (1 / most) * force;
 }
 
 double SuspensionStep::power_of_inertia() const {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "viscontact/common/index.hpp"
+#include "viscontact/suspensions/step/contacts.hpp"
+#include "viscontact/suspensions/step/films.hpp"
 #include "viscontact/suspensions/step/step_parts.hpp"
 
 namespace viscontact::suspensions {
@@ -78,14 +80,14 @@ void SuspensionStep::add_to_rate(std::size_t p) {
   // the linear problem symmetric; with one of both the iteration may diverge.
   double load = 0;
   if (film.alpha > 0) {
+    const auto [arm, excess, stress_axial] = film_strain(p);
     const double stiffness = film.alpha / film.at;
-    const double gap = film.affine_gap + film.curvature + h * opening(p, motions_);
-    const double force = film.force(h) + stiffness * (gap + film.delta - film.at) / h;
-    load = (stiffness * (opened + film.arm * strained) + film.excess * strained) / 2;
+    const double force = film.force(h) + stiffness * (film.width - film.at) / h;
+    load = (stiffness * (opened + arm * strained) + excess * strained) / 2;
     // Of a square, so that the linear problem has a minimum.
-    rate.resistance += load * load / stiffness + film.stress_axial * strained * strained;
-    add_power(film.arm * strained * force);
-    add_power(film.stress_axial * strained * strained * rate.value);
+    rate.resistance += load * load / stiffness + stress_axial * strained * strained;
+    add_power(arm * strained * force);
+    add_power(stress_axial * strained * strained * rate.value);
   }
   Lanes turn1{}, turn2{};
   if (film.contact >= 0) {
@@ -93,7 +95,7 @@ void SuspensionStep::add_to_rate(std::size_t p) {
     const Vector change =
         vector_of(motions_[index_of(row.second)].along - motions_[index_of(row.first)].along);
     const Vector lever = mean_path(problem_.gradient, h, apart, change);
-    const double pushed = contact.pushes ? trial_load(contact) : contact.memory.least_load;
+    const double pushed = contact.pushes ? contact.trial_load(film.width, h) : contact.least_load;
     const double opened_by_lever = dot(n, times(problem_.stress->gradient, lever));
     add_power(-pushed * opened_by_lever);
     if (contact.pushes) {
@@ -102,15 +104,17 @@ void SuspensionStep::add_to_rate(std::size_t p) {
       rate.resistance += contact.stiffness * mean * mean;
     }
     if (problem_.friction > 0) {
-      const Lanes slipped = slip_by_strain(contact, rate.strain);
-      const Lanes friction = change_of_friction(contact, slipped);
-      add_power(dot(contact.at_friction, slipped));
+      const auto& across = frictions_[index_of(film.contact)];
+      const Lanes slipped = slip_by_strain(across, rate.strain);
+      const Lanes friction = change_of_friction(across, slipped);
+      add_power(dot(across.at_friction, slipped));
       rate.resistance += dot(friction, slipped);
-      turn1 = contact.arm_first * friction;
-      turn2 = contact.arm_second * friction;
+      turn1 = across.arm_first * friction;
+      turn2 = across.arm_second * friction;
     }
   }
-  const Lanes along = load * row.normal + row.inverse_arm * cross(row.normal, turn1 + turn2);
+  const Lanes along =
+      load * lanes_of(row.normal) + row.inverse_arm * cross(row.normal, turn1 + turn2);
   auto &first = rate.loads[index_of(row.first)], &second = rate.loads[index_of(row.second)];
   first.along -= along;
   first.turn += turn1;
@@ -150,8 +154,9 @@ ConjugateGradients::Result SuspensionStep::solve_with_rate(const ConjugateGradie
   resistance.spheres.push_back({6 * std::numbers::pi * problem_.lubrication.viscosity *
                                     problem_.lubrication.drag * problem_.mean_radius,
                                 resisted});
-  const auto result = gradients_.solve(resistance, BlockPreconditioner(resistance, *problem_.pool),
-                                       loads, unknowns, end, StepTuning::kMostIterations);
+  preconditioner_.set(resistance, *problem_.pool);
+  const auto result = gradients_.solve(resistance, preconditioner_, loads, unknowns, end,
+                                       StepTuning::kMostIterations);
   resistance.spheres.pop_back();
   rate.value = unknowns.back().turn[0];
   unknowns.pop_back();

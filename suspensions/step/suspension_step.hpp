@@ -1,18 +1,21 @@
 // The convex problem of a step: films by their first integrals, and rigid contact, (9.11) to
-// (9.17).
+// (9.17); with inertia or a given stress, (9.19) to (9.23).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "viscontact/common/index.hpp"
 #include "viscontact/particles/contact/film_law.hpp"
 #include "viscontact/suspensions/linear/conjugate_gradients.hpp"
 #include "viscontact/suspensions/pairs/pair_sizes.hpp"
 #include "viscontact/suspensions/pairs/pair_system.hpp"
+#include "viscontact/suspensions/pairs/row_blocks.hpp"
 #include "viscontact/suspensions/step/acceleration.hpp"
 #include "viscontact/suspensions/values/affine_motion.hpp"
 #include "viscontact/suspensions/values/stress_sums.hpp"
@@ -52,7 +55,7 @@ struct StepProblem {
   std::vector<NearPair> pairs;          ///< at the start of the step
   std::vector<ContactMemory> memories;  ///< in order of first, second
   std::vector<Motion> motions;          ///< of the last step, relative to the flow
-  std::vector<Motion> loads;            ///< given forces and torques
+  std::vector<Motion> loads;            ///< given forces and torques; empty without any
   std::vector<SphereInertia> inertia;   ///< of the spheres; empty without inertia
   Matrix gradient{};                    ///< [1/T]; at GivenStress::rate
   std::optional<GivenStress> stress;    ///< without planes and inertia
@@ -82,6 +85,11 @@ struct StepSolution {
   std::size_t touching = 0;
 };
 
+struct Contact;
+struct Film;
+struct FilmStrain;
+struct FrictionContact;
+
 class SuspensionStep {
  public:
   explicit SuspensionStep(StepProblem problem);
@@ -89,11 +97,29 @@ class SuspensionStep {
   StepSolution solve();
 
  private:
-  struct Film;
-  struct Contact;
   struct Rate;
+  // What the present motions make of the gaps.
+  struct Gaps {
+    double error = 0;                                           // the largest of a contact [L]
+    double smallest = std::numeric_limits<double>::infinity();  // [L]
+    double stiffness = 0;     // sum of those of films and contacts [M/T]
+    std::size_t changes = 0;  // contacts that would be linearised otherwise
+    // A measure of the power that the change of the loads of contacts by update_contacts() would
+    // leave over [M L^2/T^3].
+    double power_of_changes = 0;
+  };
   // The loads that bound friction: those of contacts, or fixed ones.
   enum class Bounds : std::uint8_t { kOfLoads, kGiven };
+  // Calls work(p) for all pairs p.
+  template <class Work>
+  void for_each_pair(const Work& work) const {
+    problem_.pool->for_blocks(
+        problem_.pairs.size(),
+        [&](std::size_t begin, std::size_t end) {
+          for (std::size_t p = begin; p < end; ++p) work(p);
+        },
+        kPairsInBlock);
+  }
   // Takes pairs at half of the step of the present motions.
   void place_again();
   // (9.19) to (9.21): the resistance by inertia, and what the motion at the start adds to the
@@ -103,34 +129,53 @@ class SuspensionStep {
   std::vector<bool> stopped_spheres() const;
   void add_momentum(std::vector<Motion>& loads) const;
   std::vector<Motion> changes_of_velocities() const;
+  // Translates all spheres with inertia, if there is no plane, so that the loads from outside alone
+  // change their momentum.
+  void balance_momentum();
   // What the velocities v and the motions at the start s give: v.M v and v.M s over theta h.
   double power_of_inertia() const;
   double power_of_momentum() const;
-  PairSizes sizes(std::size_t p) const;  // of pair p
+  PairSizes sizes(std::size_t p) const { return system_.sizes(p); }
+  double delta(std::size_t p) const;  // of pair p [L]
   // What two bodies resist to an approach by their inertia [M/T].
   double inertia_of(std::int32_t first, std::int32_t second) const;
-  void add_films();
+  // Sets what films have by the place of the pairs.
+  void place_films();
   // Sets what the films and the given loads have by the flow.
   void set_flow();
+  FilmStrain film_strain(std::size_t p) const;
   void add_contacts();
   void add_contact(std::size_t p, const ContactMemory& memory);
-  ContactMemory memory_of(const Contact& contact) const;  // with its friction
+  // Sets what a contact has by the place of its pair; `friction` is that of its memory.
+  void place_contact(Contact& contact);
+  void place_friction(FrictionContact& contact, const Lanes& friction);
+  Lanes force_of(const FrictionContact& contact) const;  // on the second body
+  // The contacts that have a load or a memory, in order.
+  std::vector<ContactMemory> memories() const;
   // Whether the film of pair p alone keeps its gap above 0, so that it has no contact before its
   // gap is kSolidGap.
   bool is_kept_apart(std::size_t p) const;
+  // The width below which the force of a film is linear in it [L].
+  double solid_width() const;
   // Rate at which pair p opens relative to the flow [L/T].
-  double opening(std::size_t p, const std::vector<Motion>& motions) const;
+  double opening(std::size_t p, const std::vector<Motion>& motions) const {
+    const auto& row = system_.resistance().pairs[p];
+    return dot(row.normal,
+               motions[index_of(row.second)].along - motions[index_of(row.first)].along);
+  }
   // The slip (9.16) of the surfaces, turned by a right angle about the normal [L/T]: the sum of
   // both parts.
-  Lanes slip(const Contact& contact, const std::vector<Motion>& motions) const;
-  Lanes slip_by_motions(const Contact& contact, const std::vector<Motion>& motions) const;
-  Lanes slip_by_strain(const Contact& contact) const { return slip_by_strain(contact, strain_); }
-  Lanes slip_by_strain(const Contact& contact, const SymmetricTensor& strain) const;
+  Lanes slip(const FrictionContact& contact, const std::vector<Motion>& motions) const;
+  Lanes slip_by_motions(const FrictionContact& contact, const std::vector<Motion>& motions) const;
+  Lanes slip_by_strain(const FrictionContact& contact) const {
+    return slip_by_strain(contact, strain_);
+  }
+  Lanes slip_by_strain(const FrictionContact& contact, const SymmetricTensor& strain) const;
   // The friction at a slip, and how it changes with the slip where it was linearised.
-  Lanes friction_at(const Contact& contact, const Lanes& at_slip) const;
-  static Lanes change_of_friction(const Contact& contact, const Lanes& change);
-  double friction_bound(const Contact& contact) const;
-  double coulomb_bound(const Contact& contact) const;
+  Lanes friction_at(const FrictionContact& contact, const Lanes& at_slip) const;
+  static Lanes change_of_friction(const FrictionContact& contact, const Lanes& change);
+  double friction_bound(const FrictionContact& contact) const;
+  double coulomb_bound(const FrictionContact& contact) const;
   // What contacts that stick slip in the step. Where the friction differs from Coulomb's, of the
   // loads or, in the first member, of the bounds in use, the slip that makes this difference [L].
   struct FrictionError {
@@ -143,13 +188,10 @@ class SuspensionStep {
   void linearise(bool is_first);
   // Of film and contact; false if the film is not linearised where it is.
   bool linearise_pair(std::size_t p, bool is_first);
-  void linearise_friction(Contact& contact);
-  double trial_load(const Contact& contact) const;
+  void linearise_friction(FrictionContact& contact);
   // Contacts that would be linearised otherwise at the present motions.
   std::size_t count_changes() const;
-  // A measure of the power that the change of the loads of contacts by update_contacts() would
-  // leave over [M L^2/T^3].
-  double power_of_changes() const;
+  bool is_changed(const Contact& contact, double width) const;
   // Sets the loads of contacts by the present motions.
   void update_contacts();
   // Sets them with the bounds of friction that are in use.
@@ -159,11 +201,27 @@ class SuspensionStep {
   // Loads and friction of all contacts, each over the root of its stiffness [(M L^2/T^3)^(1/2)].
   std::vector<double> scaled_loads() const;
   void set_scaled_loads(const std::vector<double>& loads);
+  // Takes the nearest loads and friction that obey (9.13) and (9.15).
+  void obey_bounds();
+  // Finds loads and motions by the splitting of Douglas & Rachford (Lions & Mercier 1979): in turn
+  // the nearest loads that obey Coulomb's law, and motions with which contacts are springs that
+  // stick. It needs more linear problems than the augmented Lagrangian, but solves steps in which
+  // the loads of that one go in circles. Returns whether the loads change by less than `allowed`
+  // [M L^2/T^3]. With friction only.
+  bool split(StepSolution& solution, double allowed);
+  // Stiffnesses of contacts along and across over the resistance of the film at contact.
+  void set_stiffnesses(double along, double across);
+  // Takes the loads of springs that stick.
+  void take_trial_loads();
+  void find_states();  // of friction, by the present loads
   // Finds the gaps at the end of the step, and contacts that were not expected.
   void find_gaps();
   // Goes back from the present motions and rate towards those before, if the function to be
-  // minimised rises. `curvature` is the change of the motions times R times this change.
-  void shorten(const std::vector<Motion>& before, double rate_before, double curvature);
+  // minimised rises. `curvature` is the change of the motions times R times this change, by which
+  // `before` is replaced.
+  void shorten(std::vector<Motion>& before, double rate_before, double curvature);
+  // Where the linear problem ends that follows so many, if this residual is allowed.
+  ConjugateGradients::End end_of_linear(int solutions, double allowed) const;
   ConjugateGradients::Result solve_linear(const ConjugateGradients::End& end);
   // With a given stress: what the strain alone has in the row of the rate.
   void place_rate();
@@ -182,19 +240,27 @@ class SuspensionStep {
   // Rates of shear below it cannot be told from rest [1/T].
   double least_rate() const;
   void sum_stresses(StepSolution& solution);
+  // Sets what the solution has of the last motions. Only the destructor may follow.
+  void finish(StepSolution& solution);
 
   StepProblem problem_;
   SymmetricTensor strain_;
   PairSystem system_;
+  BlockPreconditioner preconditioner_;
+  bool has_factors_ = false;               // of the pairs as they are placed
+  std::size_t changed_since_factors_ = 0;  // pairs whose stiffness has changed
   ConjugateGradients gradients_;
   std::vector<Motion> motions_, right_, given_loads_;
   std::vector<SphereDrag> inertia_;  // mass and moment of inertia over theta h
   std::vector<Film> films_;
   std::vector<Contact> contacts_;
+  std::vector<FrictionContact> frictions_;  // of the contacts, with friction
   Acceleration acceleration_;
-  std::unique_ptr<Rate> rate_;               // nullptr if the rate is given
-  double gap_error_ = 0, smallest_gap_ = 0;  // [L]
+  std::unique_ptr<Rate> rate_;  // nullptr if the rate is given
+  Gaps gaps_;
   Bounds bounds_ = Bounds::kOfLoads;
+  bool is_stiff_ = false;      // whether all contacts have the large stiffness
+  bool is_split_ = false;      // whether contacts are linearised as springs that stick
   int updates_ = 0;            // of loads with friction
   int unchanged_ = 0;          // linear problems since a contact began to stick, slide or open
   bool is_film_exact_ = true;  // whether all films were linearised where they are

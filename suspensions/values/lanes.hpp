@@ -1,11 +1,13 @@
-// Vectors of three components in one register of four numbers, of which the last is 0.
+// Motions and loads of spheres in registers of four numbers.
 #pragma once
 
-#include <cstddef>
-
+#include "viscontact/common/lanes.hpp"
 #include "viscontact/particles/values/vector.hpp"
 
 namespace viscontact::suspensions {
+
+using viscontact::cross;
+using viscontact::dot;
 
 using particles::dot;
 using particles::norm;
@@ -14,23 +16,20 @@ using particles::operator+;
 using particles::operator-;
 using particles::operator*;
 
-using Lanes [[gnu::vector_size(32)]] = double;
-// GCC's alignof(Lanes), by which memory is allocated, is less without AVX; its code for AVX takes
-// this alignment for granted.
-inline constexpr std::size_t kLaneAlignment = sizeof(Lanes);
-
-inline double dot(const Lanes& a, const Lanes& b) {
-  const Lanes c = a * b;
-  return c[0] + c[1] + c[2];
-}
-
-inline Lanes cross(const Lanes& a, const Lanes& b) {
-  return __builtin_shufflevector(a, a, 1, 2, 0, 3) * __builtin_shufflevector(b, b, 2, 0, 1, 3) -
-         __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
-}
-
 inline Lanes lanes_of(const Vector& a) { return Lanes{a[0], a[1], a[2], 0}; }
 inline Vector vector_of(const Lanes& a) { return {a[0], a[1], a[2]}; }
+
+/// Three components without the fourth number, which rows of pairs have no memory for.
+class Packed {
+ public:
+  Packed() = default;
+  explicit Packed(const Lanes& a) : components_{a[0], a[1], a[2]} {}
+  operator Lanes() const { return lanes_of(components_); }  // NOLINT: the same vector
+
+ private:
+  Vector components_{};
+};
+inline Lanes lanes_of(const Packed& a) { return a; }
 
 /// The velocity [L/T] and angular velocity [1/T] of a sphere, or the force [M L/T^2] and torque
 /// [M L^2/T^2] on it.

@@ -6,8 +6,8 @@
 namespace viscontact::particles {
 
 /// At one instant or as the mean over a step. With a gradient that is no simple shear, `viscosity`
-/// and its parts are sigma:E/(2 viscosity of the fluid E:E). Without a box, whose volume is
-/// infinite, `viscosity` is 1 and its parts are 0; at rest they and n1, n2, `pressure` are 0.
+/// and its parts are sigma:E/(2 viscosity of the fluid E:E). Without a box there is no volume, so
+/// that they and n1, n2, `pressure` are NaN; at rest all of them are 0.
 struct Rheology {
   double time = 0;    ///< [T]
   double strain = 0;  ///< since the start of the case [1]

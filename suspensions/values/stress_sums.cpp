@@ -2,14 +2,24 @@
 #include "viscontact/suspensions/values/stress_sums.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace viscontact::suspensions {
 
+using particles::Rheology;
+
 void set_stresses(const StressSums& sums, const SymmetricTensor& strain_rate, double least_rate,
-                  double viscosity, double volume, particles::Rheology& rheology) {
+                  double viscosity, double volume, Rheology& rheology) {
   const double square = 2 * strain_rate.contracted(strain_rate), rate = std::sqrt(square);
   if (!(rate > 0) || rate < least_rate) return;
   rheology.shear_rate = rate;
+  if (std::isinf(volume)) {
+    for (auto member :
+         {&Rheology::viscosity, &Rheology::n1, &Rheology::n2, &Rheology::pressure,
+          &Rheology::viscosity_film, &Rheology::viscosity_contact, &Rheology::viscosity_friction})
+      rheology.*member = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
   const auto part = [&](const StressPart& sum) {
     return sum.power / (volume * viscosity * square);
   };

@@ -38,7 +38,7 @@ struct StressSums {
 
 /// Sets the shear rate of `rheology` and the members that are stresses over the viscosity and this
 /// rate. A rate below `least_rate` [1/T] is rest, and leaves all of them 0. `volume` [L^3] is
-/// infinite without a box.
+/// infinite without a box, where the stresses are NaN.
 void set_stresses(const StressSums& sums, const SymmetricTensor& strain_rate, double least_rate,
                   double viscosity, double volume, particles::Rheology& rheology);
 

@@ -90,6 +90,14 @@ TEST(FastParticles, BeyondTheLargestDivisionAreCounted) {
   EXPECT_GT(unresolved, 0U);
 }
 
+TEST(FastParticles, WithoutTimeForAStepHaveNoParts) {
+  State state = no_particles(2);
+  add_particle(state, {0, 0, 0}, 1, 1, {1e5, 0, 0});
+  Simulation simulation(of_step(1), state, 1);
+  EXPECT_EQ(simulation.step(0).parts, 0);
+  EXPECT_EQ(simulation.step(1).parts, 1);
+}
+
 TEST(ClosingWalls, EndTheRunOnceTheOverlapPassesARadius) {
   Random random(3);
   auto state = random_cloud(

@@ -92,7 +92,8 @@ TEST(InertiaOfFluid, AFlowThatCannotBeKeptLeavesTheStateAsItWas) {
   add_particle(system.state, {20, 0, 0}, 1, 1, {1, 0, 0});
   FluidSimulation simulation(system.setting, system.state, std::make_unique<Failing>());
   // The start and the second step keep a flow, the first step does not.
-  simulation.step(1);
+  EXPECT_EQ(simulation.step(0).parts, 0);
+  EXPECT_EQ(simulation.step(1).parts, 1);
   simulation.step(1);
   const State before = simulation.state();
   EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { simulation.step(1); }),

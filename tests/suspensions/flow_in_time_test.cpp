@@ -25,17 +25,8 @@ FlowPiece shear_to(double until, double rate) {
   return piece;
 }
 
-Setting sheared(PairTerms pairs, double regularisation, double roughness, double friction) {
-  auto setting = sheared_cube(kSide, 1);
-  auto& of = *setting.lubrication;
-  of.pairs = pairs;
-  of.regularisation = regularisation;
-  of.roughness = roughness;
-  if (friction > 0) setting.laws.friction = FrictionLaw{friction};
-  if (pairs == PairTerms::kNone) {
-    setting.laws.film.viscosity = 1;
-    setting.laws.film.roughness = 1e-3;
-  }
+Setting sheared(const StepKind& kind) {
+  auto setting = sheared_cube(kSide, 1, kind);
   setting.time_step = 0.02;
   return setting;
 }
@@ -45,7 +36,7 @@ void run_to(SuspensionSimulation& simulation, double end) {
 }
 
 TEST(FlowInTime, ReversesAndStops) {
-  auto setting = sheared(PairTerms::kNearContact, 1e-3, 1e-3, 0);
+  auto setting = sheared({PairTerms::kNearContact, 1e-3, 1e-3, 0});
   setting.lubrication->pieces = {shear_to(1, 1), shear_to(1.2, -2), shear_to(1.3, 0)};
   SuspensionSimulation simulation(setting, crowd(), 1);
   const auto run_until = [&](double end) {
@@ -71,7 +62,7 @@ TEST(FlowInTime, ReversesAndStops) {
 }
 
 TEST(FlowInTime, EndsStepsWhereItChanges) {
-  auto setting = sheared(PairTerms::kNearContact, 1e-3, 0, 0);
+  auto setting = sheared({PairTerms::kNearContact, 1e-3, 0, 0});
   setting.lubrication->pieces = {shear_to(0.05, 1), shear_to(0.071, 1), shear_to(0.093, -1)};
   SuspensionSimulation simulation(setting, crowd(), 1);
   std::vector<double> times;
@@ -83,9 +74,31 @@ TEST(FlowInTime, EndsStepsWhereItChanges) {
   EXPECT_NEAR(simulation.state().shear.net_strain, 0.071 - (0.13 - 0.071), 1e-12);
 }
 
+TEST(FlowInTime, ThatEndsAStepEarlyDoesNotShortenTheNextOnes) {
+  // Only the halving of a step with friction does.
+  const State apart = spheres_at({{1, 2, 1}, {1, 6, 5}}, {1, 1});
+  const auto times_of = [&](const Setting& setting, std::vector<double> ends) {
+    SuspensionSimulation simulation(setting, apart, 1);
+    std::vector<double> times;
+    for (const double end : ends)
+      while (simulation.step(end).parts > 0) times.push_back(simulation.state().time);
+    return times;
+  };
+  auto setting = sheared({PairTerms::kNearContact, 1e-3, 1e-3, 0.5});
+  const auto expect = [](const std::vector<double>& times, const std::vector<double>& expected) {
+    ASSERT_EQ(times.size(), expected.size());
+    for (std::size_t k = 0; k < times.size(); ++k) EXPECT_NEAR(times[k], expected[k], 1e-12);
+  };
+  expect(times_of(setting, {0.02005, 0.07}), {0.02, 0.02005, 0.04005, 0.06005, 0.07});
+  // A piece as short as that, and a piece that begins as shortly before a point of the grid.
+  setting.lubrication->pieces = {shear_to(0.02, 1), shear_to(0.02005, -1), shear_to(0.05995, 1),
+                                 shear_to(1, -1)};
+  expect(times_of(setting, {0.1}), {0.02, 0.02005, 0.04, 0.05995, 0.06, 0.08, 0.1});
+}
+
 TEST(FlowInTime, HasAStepInEachPiece) {
   // Pieces of the least length, at a point of the grid of steps and at other places around it.
-  auto setting = sheared(PairTerms::kNearContact, 1e-3, 0, 0);
+  auto setting = sheared({PairTerms::kNearContact, 1e-3, 0, 0});
   const double least = StepGrid::least_piece(setting.time_step);
   const auto with_piece = [&](double begin, double length) {
     setting.lubrication->pieces = {shear_to(begin, 1), shear_to(begin + length, 1e5),
@@ -104,7 +117,7 @@ TEST(FlowInTime, HasAStepInEachPiece) {
 }
 
 TEST(FlowInTime, ChangesItsGradient) {
-  auto setting = sheared(PairTerms::kTables, 0, 0, 0);
+  auto setting = sheared({PairTerms::kTables, 0, 0, 0});
   setting.domain = {};
   FlowPiece strain, turn;
   strain.until = 0.5;
@@ -130,7 +143,7 @@ TEST(FlowInTime, ChangesItsGradient) {
 TEST(FlowInTime, IsContinuedBitForBitAcrossAChange) {
   for (const bool is_wave : {false, true})
     for (const double friction : {0.0, 0.3}) {
-      auto setting = sheared(PairTerms::kTables, 0, 1e-2, friction);
+      auto setting = sheared({PairTerms::kTables, 0, 1e-2, friction});
       if (is_wave)
         setting.lubrication->wave = Wave{0, 1.5, 6, 0.3};
       else
@@ -149,7 +162,7 @@ TEST(FlowInTime, IsContinuedBitForBitAcrossAChange) {
 }
 
 TEST(FlowInTime, OfAWaveHasTheStrainOfTheWave) {
-  auto setting = sheared(PairTerms::kNearContact, 1e-3, 1e-3, 0.3);
+  auto setting = sheared({PairTerms::kNearContact, 1e-3, 1e-3, 0.3});
   const Wave wave{0.2, 1.5, 5, 0.3};
   setting.lubrication->wave = wave;
   SuspensionSimulation simulation(setting, crowd(), 1);
@@ -163,7 +176,7 @@ TEST(FlowInTime, OfASmallWaveIsViscousAndInPhase) {
   // Smooth spheres at nearly the same places: the stress follows the rate without a lag. In steps
   // of a hundredth of the period the means of both are those of the same times.
   for (const auto pairs : {PairTerms::kTables, PairTerms::kNearContact}) {
-    auto setting = sheared(pairs, 1e-3, 0, 0);
+    auto setting = sheared({pairs, 1e-3, 0, 0});
     const double amplitude = 1e-5, frequency = 2 * std::numbers::pi;
     setting.lubrication->wave = Wave{0, amplitude * frequency, frequency, 0.1};
     setting.time_step = 0.01;
@@ -191,7 +204,7 @@ TEST(FlowInTime, OfSmoothSpheresIsReversible) {
   // Forth and back by the strain 0.05. Steps take normals at half of the step, so that what is left
   // falls at least with the first order of the step.
   const auto left = [](double step) {
-    auto setting = sheared(PairTerms::kTables, 0, 0, 0);
+    auto setting = sheared({PairTerms::kTables, 0, 0, 0});
     setting.lubrication->pieces = {shear_to(0.05, 1), shear_to(0.1, -1)};
     setting.time_step = step;
     const State start = crowd();

@@ -39,6 +39,20 @@ State random_spheres(double period, double offset, const std::vector<double>& ra
   return spheres_at(places, radii);
 }
 
+State disturbed_lattice(int side, double spacing, double displacement, Random& random) {
+  std::vector<Vector> places;
+  const auto moved = [&](int site) {
+    return spacing * (site + 0.5) + random.uniform(-displacement, displacement);
+  };
+  for (int x = 0; x < side; ++x)
+    for (int y = 0; y < side; ++y)
+      for (int z = 0; z < side; ++z) {
+        const double at_x = moved(x), at_y = moved(y);
+        places.push_back({at_x, at_y, moved(z)});
+      }
+  return spheres_at(places, std::vector<double>(places.size(), 1));
+}
+
 State reordered(const State& state, const std::vector<std::size_t>& order) {
   std::vector<Vector> places;
   std::vector<double> radii;

@@ -20,6 +20,10 @@ State spheres_at(const std::vector<Vector>& places, const std::vector<double>& r
 State random_spheres(double period, double offset, const std::vector<double>& radii, double gap,
                      Random& random);
 
+/// Spheres of radius 1 on a cubic lattice, `side` of them along each edge, displaced along each axis
+/// by at most `displacement`.
+State disturbed_lattice(int side, double spacing, double displacement, Random& random);
+
 /// Spheres of the same radii at the places place(x), where x are those of `state`.
 template <class Place>
 State displaced(const State& state, const Place& place) {

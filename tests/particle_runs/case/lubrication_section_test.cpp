@@ -52,6 +52,18 @@ TEST_F(LubricationSection, HasTheDefaultsOfItsKeys) {
   EXPECT_TRUE(c.particles.turn());
 }
 
+TEST_F(LubricationSection, HasGravityForMassesAlone) {
+  const auto read_with = [&](const std::string& sphere) {
+    return read_particles_case(
+        folder_.file("case.toml",
+                     "title = \"Fall\"\n[space]\ndimension = 3\ngravity = [0.0, 0.0, -1.0]\n"
+                     "[lubrication]\nviscosity = 2.0\n[viscous_contact]\n" +
+                         kTimes + kBox + kSphere + sphere));
+  };
+  EXPECT_THAT(bad_input([&] { read_with(""); }), IsAt("case.toml:4", "space.gravity"));
+  EXPECT_EQ(read_with("mass = 3.0\n").particles.masses, std::vector{3.0});
+}
+
 TEST_F(LubricationSection, GivesEachKeyItsPlace) {
   const auto c = read(
       "pairs = \"near_contact\"\nrange = 0.4\nregularisation = 1e-3\ndrag = 0.5\noffset = 1.5\n"

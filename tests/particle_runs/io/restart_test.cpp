@@ -58,6 +58,7 @@ TEST_F(RestartFile, HasTheFlowOfAFluidWithInertia) {
 TEST_F(RestartFile, HasTheShearOfASuspension) {
   auto state = disc_on_plane(-0.75);
   state.shear = {.strain = 7.5, .rate = -1, .offset = 0.25, .net_strain = -2};
+  state.shear.gradient = {Vector{0, -3, 0}, Vector{}, Vector{0.5, 0, 0}};
   state.shear.periods = {Vector{1, 2, 3}, Vector{0, 4, 0}, Vector{0, 0, 5}};
   EXPECT_EQ(read(write_restart(state)).shear, state.shear);
   state.shear.offset = std::numeric_limits<double>::infinity();
@@ -203,9 +204,9 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 }
 
 TEST_F(RestartFile, OfAnotherVersionIsRefused) {
-  for (const auto* version : {"version 18", "version :", "version 16", "version 17x"}) {
+  for (const auto* version : {"version 19", "version :", "version 17", "version 18x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
-    text.replace(text.find("version 17"), 10, version);
+    text.replace(text.find("version 18"), 10, version);
     EXPECT_THAT(bad_input([&] { read(text); }), IsAt("restart.bin"));
   }
 }

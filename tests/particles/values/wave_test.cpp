@@ -135,7 +135,7 @@ PairLubrication extension(std::vector<FlowPiece> pieces) {
 TEST(FlowPath, GoesAlongTheFartherNetStrain) {
   const auto expect_path = [](const PairLubrication& flow, double sense, double lowest) {
     const auto path = path_of(flow);
-    EXPECT_EQ(path.sense, sense);
+    EXPECT_EQ(path.sign, sense);
     // The mean 1e-9 of a wave below changes it by this much.
     EXPECT_NEAR(path.lowest, lowest, 2e-9);
     EXPECT_NEAR(signed_rate_of_strain(path.direction), sense, 1e-15);

@@ -1,10 +1,12 @@
 #include "viscontact/suspensions/cell/pair_search.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 
 #include "tests/common/random.hpp"
+#include "viscontact/suspensions/cell/cell_lists.hpp"
 
 namespace viscontact::suspensions {
 namespace {
@@ -116,6 +118,31 @@ TEST(PairSearch, FindsThePairsOfAShearedCellInItsLattice) {
       EXPECT_LT(norm(one[p].apart - other[p].apart), 1e-12 * kPeriod);
     }
   }
+}
+
+TEST(PairSearch, NeedsLittleMemoryInADiluteBox) {
+  const auto most_kilobytes = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const auto before = most_kilobytes();
+  ShearedCell cell{{0, 0, 0}, {1000, 1000, 1000}, 200};
+  expect_all_pairs(cell, {1, 1, 1, 999.5, 2, 1}, {1, 1}, 1.5);
+  expect_all_pairs(cell, {1, 1, 1, 801, 999, 1}, {1, 1}, 0.5);
+  // Three cells an axis; those of the largest distance of a pair would take 1e8 numbers.
+  EXPECT_LT(most_kilobytes() - before, 10'000);
+}
+
+TEST(CellsAlong, AreNoMoreThanElementsAndAsWideAsTheReach) {
+  using Cells = std::array<std::int64_t, 3>;
+  EXPECT_EQ(cells_along({1e9, 1e9, 1e9}, 1, 2), (Cells{3, 3, 3}));
+  EXPECT_EQ(cells_along({0, 1e9, 1e9}, 1, 2), (Cells{1, 5, 5}));
+  EXPECT_EQ(cells_along({5.9, 7.1, 6}, 2, 1000), (Cells{2, 3, 3}));
+  EXPECT_EQ(cells_along({20, 20, 20}, 1, 1000), (Cells{10, 10, 10}));
+  // What short axes leave is for the long one.
+  EXPECT_EQ(cells_along({100, 3, 3}, 1, 1000), (Cells{100, 3, 3}));
+  EXPECT_EQ(cells_along({1000, 3, 3}, 1, 1000), (Cells{111, 3, 3}));
 }
 
 }  // namespace

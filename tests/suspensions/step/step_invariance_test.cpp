@@ -12,20 +12,12 @@ constexpr double kPeriod = 8.5, kOffset = 1.7;
 // Rounding errors of iterations, which ten steps multiply.
 constexpr double kBar = 1e-9;
 
-struct StepKind {
-  PairTerms pairs;
-  double regularisation, roughness, friction;
-};
-
 class StepInvariance : public testing::TestWithParam<StepKind> {
  protected:
-  StepInvariance() { adapt(setting); }
-  static void adapt(Setting& of) {
-    of.lubrication->pairs = GetParam().pairs;
-    of.lubrication->regularisation = GetParam().regularisation;
-    of.lubrication->roughness = GetParam().roughness;
-    if (GetParam().friction > 0) of.laws.friction = FrictionLaw{GetParam().friction};
+  static Setting setting_of(double period, double offset) {
+    auto of = sheared_cube(period, offset, GetParam());
     of.time_step = 0.02;
+    return of;
   }
   static SuspensionSimulation moved(const Setting& of, const State& from) {
     SuspensionSimulation simulation(of, from, 1);
@@ -39,7 +31,7 @@ class StepInvariance : public testing::TestWithParam<StepKind> {
   }
   Random random{41};
   State state = random_spheres(kPeriod, kOffset, two_sizes(26), 0.006, random);
-  Setting setting = sheared_cube(kPeriod, kOffset);
+  Setting setting = setting_of(kPeriod, kOffset);
 };
 
 TEST_P(StepInvariance, OfTheOrderOfSpheres) {
@@ -74,9 +66,12 @@ TEST_P(StepInvariance, OfUnits) {
   for (int trial = 0; trial < 3; ++trial) {
     const double length = random.decades(-5, 5), time = random.decades(-5, 5);
     const double mass = random.decades(-5, 5);
-    auto other = sheared_cube(length * kPeriod, length * kOffset);
-    adapt(other);
+    auto other = setting_of(length * kPeriod, length * kOffset);
     other.lubrication->viscosity = mass / (length * time);
+    if (GetParam().pairs == PairTerms::kNone) {
+      other.laws.film.viscosity = other.lubrication->viscosity;
+      *other.laws.film.roughness *= length;
+    }
     other.lubrication->gradient[0][1] = 1 / time;
     other.time_step = 0.02 * time;
     const auto here = moved(setting, state), there = moved(other, scaled(state, length));

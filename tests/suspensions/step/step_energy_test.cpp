@@ -12,13 +12,15 @@ namespace {
 
 TEST(StepEnergy, OfTheWallsIsTheDissipation) {
   constexpr double period = 8.5, rate = 0.5;
-  const std::vector<StepKind> kinds{{PairTerms::kNearContact, 1e-3, 0, 0},
-                                    {PairTerms::kTables, 0, 1e-2, 0},
-                                    {PairTerms::kTables, 0, 1e-2, 0.5},
-                                    {PairTerms::kNearContact, 1e-3, 1e-3, 1},
-                                    {PairTerms::kNone, 0, 0, 0.3}};
+  const std::vector<StepKind> kinds{
+      {PairTerms::kNearContact, 1e-3, 0, 0},   {PairTerms::kNearContact, 0, 0, 0},
+      {PairTerms::kNearContact, 0, 1e-2, 0.3}, {PairTerms::kNearContact, 1e-3, 1e-3, 1},
+      {PairTerms::kTables, 0, 0, 0},           {PairTerms::kTables, 0, 1e-2, 0},
+      {PairTerms::kTables, 0, 1e-2, 0.5},      {PairTerms::kNone, 0, 0, 0},
+      {PairTerms::kNone, 0, 0, 0.3},
+  };
   for (const auto& kind : kinds) {
-    SCOPED_TRACE(&kind - kinds.data());
+    SCOPED_TRACE(testing::PrintToString(kind));
     Random random(31);
     auto setting = sheared_cube(period, 0, kind);
     setting.lubrication->gradient = {Vector{rate, 0, 0}, Vector{0, -rate, 0}, Vector{}};
@@ -32,11 +34,14 @@ TEST(StepEnergy, OfTheWallsIsTheDissipation) {
       contacts = std::max(contacts, found.contacts);
       // In a planar extension sigma:E is rate times the first normal stress difference, which is
       // over 2 rate times the viscosity of the fluid. Its error is of the order of the residual of
-      // the motions, 3e-9 in the root of the power.
+      // the motions, in the root of the power: 3e-9, and 1e-7 without films and friction.
+      const double residual = kind.pairs == PairTerms::kNone && kind.friction == 0 ? 1e-7 : 3e-9;
       const double work = 2 * rate * rate * (found.n1 - 2) * std::pow(period, 3);
-      EXPECT_NEAR(work, found.dissipation, 1e-8 * found.dissipation);
+      EXPECT_NEAR(work, found.dissipation, 3.3 * residual * found.dissipation);
     }
-    EXPECT_GT(contacts, 2U);
+    const bool has_contacts =
+        kind.regularisation > 0 || kind.roughness > 0 || kind.pairs == PairTerms::kNone;
+    EXPECT_EQ(contacts > 2, has_contacts);
   }
 }
 

@@ -115,10 +115,12 @@ TEST(FlowThatStopsInOtherUnits, IsTheSame) {
   ASSERT_EQ(small.size(), here.size());
   ASSERT_EQ(large.size(), here.size());
   for (std::size_t n = 0; n < here.size(); ++n) {
-    // Five steps at rest, and rounding errors of iterations elsewhere.
+    // Five steps at rest. The steps after them begin with the rounding errors of rest, which change
+    // the viscosities of most arrangements by 1e-8 to 2e-6.
+    const double tolerance = (n < 10 ? 1e-11 : 1e-5) * here[n];
     EXPECT_EQ(here[n] == 0, n >= 10 && n < 15);
-    EXPECT_NEAR(small[n], here[n], 1e-7 * here[n]);
-    EXPECT_NEAR(large[n], here[n], 1e-7 * here[n]);
+    EXPECT_NEAR(small[n], here[n], tolerance);
+    EXPECT_NEAR(large[n], here[n], tolerance);
   }
 }
 

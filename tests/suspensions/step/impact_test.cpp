@@ -76,6 +76,50 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ImpactOfSmoothSpheres,
                                           testing::Values(PairTerms::kTables,
                                                           PairTerms::kNearContact)));
 
+class FreeSpheres : public testing::TestWithParam<PairTerms> {};
+
+TEST_P(FreeSpheres, KeepTheirMomentum) {
+  Setting setting;
+  PairLubrication lubrication;
+  lubrication.viscosity = 1e-3;
+  lubrication.inertia = true;
+  lubrication.drag = 1e-10;
+  lubrication.pairs = GetParam();
+  if (lubrication.pairs == PairTerms::kNone) {
+    lubrication.roughness = 1e-3;
+    setting.laws.film.viscosity = lubrication.viscosity;
+    setting.laws.film.roughness = 5e-4;
+  }
+  setting.lubrication = lubrication;
+  setting.time_step = 0.1;
+  Random random(63);
+  const std::size_t count = 20;
+  auto state = random_spheres(12, 0, two_sizes(count), 0.02, random);
+  auto& p = state.particles;
+  // They come together and go on as a whole.
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t d = 0; d < 3; ++d)
+      p.velocities[3 * k + d] = 0.5 * (6 - p.positions[3 * k + d]) + random.uniform(-1, 1) + 0.5;
+  const auto momentum = [&](const SuspensionSimulation& of) {
+    Vector sum{};
+    for (std::size_t k = 0; k < count; ++k)
+      sum = sum + p.masses[k] * of.state().particles.velocity(k);
+    return sum;
+  };
+  SuspensionSimulation simulation(setting, state, 1);
+  const Vector start = momentum(simulation);
+  bool have_met = false;
+  while (simulation.step(3).parts > 0)
+    have_met = have_met || simulation.rheology().smallest_gap < 2e-3;
+  EXPECT_TRUE(have_met);
+  // The drag of the whole takes less than 1e-10 of it.
+  EXPECT_LT(norm(momentum(simulation) - start), 1e-9 * norm(start));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, FreeSpheres,
+                         testing::Values(PairTerms::kTables, PairTerms::kNearContact,
+                                         PairTerms::kNone));
+
 TEST(ImpactOfASmoothSphere, ClosesTheGapOfItsStokesNumber) {
   // With the film alone v = v_0 - 6 pi mu a^2 ln(q_0/q)/m.
   for (const double mass : {60.0, 100.0, 150.0}) {
