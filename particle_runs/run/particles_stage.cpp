@@ -164,8 +164,8 @@ class Run {
   }
 
   /// Computes the velocities at the start of spheres with lubrication, which the first frame has;
-  /// if no step follows, also their rheology. If a step follows, velocities that do not converge are
-  /// only warned of, because steps bear smaller gaps.
+  /// if no step follows, also their rheology. If a step follows, a warning is enough where they do
+  /// not converge, because steps bear smaller gaps.
   void compute_start() {
     // After a step the velocities are those of the step, with which the next one begins.
     if (suspension_ == nullptr || simulation_.state().steps > 0) return;

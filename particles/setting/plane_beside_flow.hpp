@@ -9,8 +9,8 @@
 
 namespace viscontact::particles {
 
-/// What of the `[[plane]]` makes its film unknown: a load, a turn, or a flow that changes along the plane
-/// or goes through it. `is_wall` says that it belongs to the domain and moves with the flow.
+/// What of the `[[plane]]` makes its film unknown: a load, a turn, or a flow that changes along the
+/// plane or goes through it. `is_wall` says that it belongs to the domain and moves with the flow.
 std::optional<SettingFault> fault_of_plane(const Plane& plane, const PairLubrication& pairs,
                                            bool is_wall);
 
